@@ -1,0 +1,14 @@
+//! PolyScene: design 3D rigid body scenes, step their simulation event by event, and see how
+//! accurate every step is. This file is the list of layers; ARCHITECTURE.md tells what each is for.
+
+pub mod cli;
+#[cfg(feature = "gui")]
+pub mod editor;
+#[cfg(feature = "gui")]
+pub mod gui;
+pub mod record;
+#[cfg(feature = "render")]
+pub mod render;
+pub mod scene;
+pub mod sim;
+pub mod view;

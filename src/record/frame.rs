@@ -1,0 +1,89 @@
+//! What a runner publishes: one consistent picture of the simulation, cheap to share.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use crate::scene::{Diagnostic, NodeKey};
+use crate::sim::{ContactState, Counters, Energy, Event, Momentum, Plan, Tiling};
+
+/// What a runner is doing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum RunState {
+    /// No simulation: nothing loaded, or the scene can't be simulated.
+    #[default]
+    Empty,
+    Paused,
+    /// Working on a command that is not done yet.
+    Busy,
+    Playing,
+    /// Stopped by a numerical fault.
+    Faulted,
+}
+
+/// One dynamic body now.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodyFrame {
+    pub key: NodeKey,
+    /// m, m/s, m/s², N.
+    pub position: DVec3,
+    pub velocity: DVec3,
+    pub acceleration: DVec3,
+    pub force: DVec3,
+    /// J.
+    pub kinetic: f64,
+    pub contact: ContactState,
+}
+
+/// One ledger row with the names a person knows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EventRow {
+    pub event: Event,
+    pub a_key: NodeKey,
+    pub b_key: Option<NodeKey>,
+    pub a_label: String,
+    /// Empty for events of one body alone.
+    pub b_label: String,
+    /// Number of the Δt (1 for the first) in which it happened.
+    pub dt_index: u64,
+}
+
+/// A consistent picture, never changed after it is published.
+#[derive(Clone, Debug, Default)]
+pub struct Frame {
+    /// Grows with every frame published.
+    pub revision: u64,
+    pub state: RunState,
+    /// Model time, s.
+    pub time: f64,
+    /// Number of the Δt being looked at: 0 at the start, k after the k-th.
+    pub dt_index: u64,
+    /// When inside a Δt: its start and end.
+    pub open_step: Option<(f64, f64)>,
+    /// In UserID order.
+    pub bodies: Vec<BodyFrame>,
+    /// Events of the last (or open) Δt, oldest first, and whether older ones were left out.
+    pub events: Vec<Arc<EventRow>>,
+    pub events_truncated: bool,
+    /// Events since the start.
+    pub event_count: u64,
+    pub energy: Option<Energy>,
+    pub momentum: Option<Momentum>,
+    /// m.
+    pub worst_overlap: f64,
+    pub counters: Counters,
+    pub plan: Arc<Plan>,
+    pub tiling: Arc<Tiling>,
+    /// Wall-clock seconds the last Δt took.
+    pub step_wall_s: f64,
+    /// Events per wall-clock second, smoothed.
+    pub events_per_s: f64,
+    /// Model seconds per wall second really reached while playing.
+    pub real_speed: f64,
+    /// Whether there is something to step back to.
+    pub can_step_back: bool,
+    /// Why the scene can't be simulated, or geometric warnings of the start.
+    pub problems: Arc<Vec<Diagnostic>>,
+    /// The numerical fault, or why the last edit was refused.
+    pub fault: Option<String>,
+}

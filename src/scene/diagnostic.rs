@@ -1,0 +1,57 @@
+//! A problem of a scene file: where it is, what is wrong, and the way out.
+
+use std::fmt;
+
+/// Whether a problem keeps the scene from running.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Severity {
+    Warning,
+    Error,
+}
+
+/// One problem. [`fmt::Display`] gives `line:column: severity: message (path); hint`, without the file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Diagnostic {
+    pub severity: Severity,
+    /// 1-based line and column (in characters) in the source; `None` where there is no such place
+    /// (a file that can't be read, an element that was added and not saved yet).
+    pub position: Option<(u32, u32)>,
+    /// Path of the element, such as `/PolyPhysicsXml/Primitives/SoftObject[5853]/Sphere`; may be empty.
+    pub path: String,
+    pub message: String,
+    /// What to do about it; may be empty.
+    pub hint: String,
+    /// The body, force or other element to select when the problem is clicked.
+    pub key: Option<super::NodeKey>,
+}
+
+impl Diagnostic {
+    pub fn is_error(&self) -> bool {
+        self.severity == Severity::Error
+    }
+}
+
+impl fmt::Display for Severity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Warning => "warning",
+            Self::Error => "error",
+        })
+    }
+}
+
+impl fmt::Display for Diagnostic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some((line, column)) = self.position {
+            write!(f, "{line}:{column}: ")?;
+        }
+        write!(f, "{}: {}", self.severity, self.message)?;
+        if !self.path.is_empty() {
+            write!(f, " ({})", self.path)?;
+        }
+        if !self.hint.is_empty() {
+            write!(f, "; {}", self.hint)?;
+        }
+        Ok(())
+    }
+}

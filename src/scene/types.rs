@@ -1,0 +1,115 @@
+//! The typed scene: the meaning of a document, in SI units, right-handed, y up.
+
+use glam::{DMat3, DVec3};
+
+use super::SimParams;
+
+/// Identifies one element of a document for as long as the document and its edits live.
+///
+/// Keys are never reused, survive every edit and undo, and are not written to the file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct NodeKey(pub u64);
+
+/// Everything a simulation needs to know.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    pub map: Map,
+    /// Model seconds per wall-clock second while watching; never scales Δt.
+    pub time_speed: f64,
+    pub params: SimParams,
+    pub forces: Vec<Force>,
+    /// In file order.
+    pub bodies: Vec<Body>,
+}
+
+/// The box [0,x]×[0,y]×[0,z] that the tiles divide. It does not collide.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Map {
+    /// Metres, each > 0.
+    pub size: DVec3,
+    /// Tiles per axis, each 1..=65 536.
+    pub tiles: [u32; 3],
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Force {
+    pub key: NodeKey,
+    /// UserID of the file; forces and bodies are separate name spaces and files repeat IDs.
+    pub id: i64,
+    /// Unique among forces: `id`, or `id#k` for the k-th (k ≥ 2) force of that id in file order.
+    pub label: String,
+    pub name: Option<String>,
+    pub hidden: bool,
+    pub locked: bool,
+    pub kind: ForceKind,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ForceKind {
+    /// F = G m r/|r|³ towards `position`; `intensity` is G in m³/s², negative repels.
+    GravityPoint { position: DVec3, intensity: f64 },
+    /// F = m g; `acceleration` in m/s²; `position` says only where to draw it.
+    GravityPlane { position: DVec3, acceleration: DVec3 },
+    /// `SpaceAverse`: F = −½ C ρ S |v| v with C = 0.5 and S = πr²; `density` is ρ in kg/m³.
+    Drag { density: f64 },
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body {
+    pub key: NodeKey,
+    /// UserID of the file, which may repeat.
+    pub id: i64,
+    /// Unique among bodies: `id`, or `id#k` for the k-th (k ≥ 2) body of that id in file order.
+    pub label: String,
+    pub name: Option<String>,
+    /// sRGB; `None` lets the viewer choose.
+    pub color: Option<[u8; 3]>,
+    pub hidden: bool,
+    pub locked: bool,
+    /// Centre, metres.
+    pub position: DVec3,
+    /// Euler angles (α, β, γ) in radians; see [`rotation_matrix`].
+    pub rotation: DVec3,
+    /// Coefficient of restitution; a pair uses the product of both.
+    pub bounce: f64,
+    /// A name that custom forces may look at.
+    pub material: Option<String>,
+    pub motion: Motion,
+    pub shape: Shape,
+}
+
+impl Body {
+    pub fn is_dynamic(&self) -> bool {
+        matches!(self.motion, Motion::Dynamic { .. })
+    }
+
+    /// What to call this body in front of a person: its name, or its label.
+    pub fn display_name(&self) -> &str {
+        self.name.as_deref().unwrap_or(&self.label)
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Motion {
+    /// `HardObject`: never moves.
+    Static,
+    /// `SoftObject`: moved by forces and collisions. Mass in kg (> 0), start velocity in m/s.
+    Dynamic { mass: f64, velocity: DVec3 },
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// Radius in metres, > 0.
+    Sphere { radius: f64 },
+    /// A bounded plane: ±`half_x` by ±`half_y` metres in its local xy plane, normal local +z,
+    /// hit from both sides. Static bodies only.
+    Plane { half_x: f64, half_y: f64 },
+    /// A shape (or property) the format knows but this version cannot simulate. It is kept on save
+    /// and is an error on run. Holds the element's name.
+    Unbuilt { element: String },
+}
+
+/// The rotation of a body: R = Rx(α)·Ry(β)·Rz(γ), world from local.
+pub fn rotation_matrix(euler: DVec3) -> DMat3 {
+    DMat3::from_rotation_x(euler.x) * DMat3::from_rotation_y(euler.y) * DMat3::from_rotation_z(euler.z)
+}

@@ -1,0 +1,92 @@
+//! The events a simulation reports: what happened, when, where, to whom, how hard.
+
+use glam::DVec3;
+
+/// A body of a running simulation. Dynamic and static bodies are numbered apart, both in UserID order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum BodyRef {
+    Dynamic(u32),
+    Static(u32),
+}
+
+/// What kind of event a ledger row is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum EventKind {
+    /// Two surfaces meet and part again.
+    Impact,
+    /// A body's bounces have ended: it lies still, or goes on as a slide.
+    Rest,
+    /// A body in contact starts to move along the surface.
+    Slide,
+    /// A body in contact leaves the surface: it was lifted, or the face ended.
+    LiftOff,
+    /// A body passed a point attractor within the core radius.
+    SingularPass,
+    /// An impact taken as elastic because it followed the last one within the contact duration.
+    Collapse,
+    /// The scene was edited while it ran.
+    Edit,
+}
+
+impl EventKind {
+    pub const ALL: [Self; 7] = [
+        Self::Impact,
+        Self::Rest,
+        Self::Slide,
+        Self::LiftOff,
+        Self::SingularPass,
+        Self::Collapse,
+        Self::Edit,
+    ];
+
+    /// The name used in files: `impact`, `rest`, `slide`, `lift_off`, `singular_pass`, `collapse`, `edit`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Impact => "impact",
+            Self::Rest => "rest",
+            Self::Slide => "slide",
+            Self::LiftOff => "lift_off",
+            Self::SingularPass => "singular_pass",
+            Self::Collapse => "collapse",
+            Self::Edit => "edit",
+        }
+    }
+
+    /// One line for the help.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Self::Impact => "two surfaces met and parted again",
+            Self::Rest => "the bounces of a body ended; it lies or slides",
+            Self::Slide => "a body in contact began to move along the surface",
+            Self::LiftOff => "a body in contact left the surface",
+            Self::SingularPass => "a body passed a point attractor within the core radius",
+            Self::Collapse => "an impact was taken as elastic, it followed the last one too soon",
+            Self::Edit => "the scene was edited while it ran",
+        }
+    }
+}
+
+/// One row of the ledger. Bit-identical for every way of sampling the same scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Event {
+    /// 1 for the first event of a run.
+    pub seq: u64,
+    /// Model time, s.
+    pub time: f64,
+    pub kind: EventKind,
+    /// The body with the smaller UserID (for one body alone: that body).
+    pub a: BodyRef,
+    /// `None` for events of one body alone.
+    pub b: Option<BodyRef>,
+    /// A point on the surface where they touch, m.
+    pub point: DVec3,
+    /// Unit vector from `a` to `b` at the contact; zero for events of one body alone.
+    pub normal: DVec3,
+    /// N·s, ≥ 0.
+    pub impulse: f64,
+    /// Normal component of the velocity of `b` relative to `a` along `normal`: negative when closing, m/s.
+    pub vn_before: f64,
+    pub vn_after: f64,
+    /// Rows with the same number were resolved together.
+    pub group: u64,
+}

@@ -1,0 +1,106 @@
+//! What can be read off a simulation: states, energies, counters, the plan, the tiles.
+
+use glam::DVec3;
+
+/// How a dynamic body is moving.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum ContactState {
+    Flight,
+    /// In lasting contact and still.
+    Rest,
+    /// In lasting contact and moving along it.
+    Slide,
+}
+
+impl ContactState {
+    /// `flight`, `rest` or `slide`, as files and the window write it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Flight => "flight",
+            Self::Rest => "rest",
+            Self::Slide => "slide",
+        }
+    }
+}
+
+/// State of one dynamic body at one time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyState {
+    /// Centre, m.
+    pub position: DVec3,
+    /// m/s.
+    pub velocity: DVec3,
+    /// m/s², of the motion, so contact forces are included.
+    pub acceleration: DVec3,
+    pub contact: ContactState,
+}
+
+/// Energies in joules.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Energy {
+    pub kinetic: f64,
+    /// `None` when a force has no potential.
+    pub potential: Option<f64>,
+    /// `None` when a force has no potential.
+    pub total: Option<f64>,
+    /// (E − E₀ + impact losses + dissipated work − work of edits) / max(|E₀|, max kinetic).
+    pub residual: Option<f64>,
+}
+
+/// Linear momentum in kg·m/s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Momentum {
+    pub value: DVec3,
+    /// |p − p₀ − ∫F dt − impulses of statics| / max(Σ m|v|) so far.
+    pub residual: f64,
+}
+
+/// What the core has done so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Ledger rows by kind, in the order of [`super::EventKind::ALL`].
+    pub events: [u64; 7],
+    /// Pairs whose time of impact was computed.
+    pub pair_tests: u64,
+    /// Times a body moved to other tiles.
+    pub tile_crossings: u64,
+    /// Segments begun.
+    pub segments: u64,
+    /// Force evaluations of the field integrator.
+    pub force_evaluations: u64,
+    /// Predicted events dropped because a body had changed since.
+    pub stale_events: u64,
+}
+
+impl Counters {
+    pub fn total_events(&self) -> u64 {
+        self.events.iter().sum()
+    }
+}
+
+/// What the scene needs, decided when it is compiled.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Plan {
+    pub dynamic_bodies: usize,
+    pub static_bodies: usize,
+    /// How bodies move between events: `ballistic` (closed form) or `field` (integrated).
+    pub motion: &'static str,
+    /// Shape pairs that can meet.
+    pub pairs: Vec<&'static str>,
+    /// Whether a body can come to rest.
+    pub lasting_contact: bool,
+    /// What was not stored and not computed because nothing in the scene needs it.
+    pub left_out: Vec<&'static str>,
+}
+
+/// The tile grid at one time, for overlays.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Tiling {
+    /// Metres per tile.
+    pub tile_size: DVec3,
+    pub tiles: [u32; 3],
+    /// Occupied tiles: indices, statics in it, dynamic bodies in it. Sorted.
+    pub occupied: Vec<([u32; 3], u32, u32)>,
+    /// Set when more tiles were occupied than are listed.
+    pub truncated: bool,
+}
