@@ -3,5 +3,20 @@
 mod command;
 mod frame;
 
+use std::sync::Arc;
+
 pub use command::RunCommand;
 pub use frame::{BodyFrame, EventRow, Frame, RunState};
+
+/// Something that runs a simulation on command. The application uses a thread, so that no scene can
+/// freeze the window; tests run inline, so that nothing sleeps.
+pub trait Runner {
+    /// Hands over a command. Commands are carried out in the order sent.
+    fn send(&mut self, command: RunCommand);
+
+    /// The newest picture of the simulation.
+    fn frame(&self) -> Arc<Frame>;
+
+    /// Tells an inline runner that `wall_s` seconds have passed while it plays. A thread keeps its own time.
+    fn tick(&mut self, wall_s: f64);
+}
