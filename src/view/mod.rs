@@ -1,1 +1,37 @@
-//! (to come)
+//! What to show, as plain data: cameras, draw lists, overlays, picking, snapping. Knows neither egui nor OpenGL.
+//!
+//! [`build_draw_list`] turns a scene, a frame and a camera into a [`DrawList`]; `render` draws it.
+
+mod bodies;
+mod bounds;
+mod build;
+mod camera;
+mod color;
+mod draw_list;
+mod forces;
+mod format;
+mod furniture;
+mod gizmo;
+mod input;
+mod list_cache;
+mod overlays;
+mod pick;
+mod see_through;
+mod stage;
+mod trails;
+mod views;
+
+pub use bounds::{Bounds, scene_bounds};
+pub use build::build_draw_list;
+pub use camera::{AxisView, Camera, Projection, Ray};
+pub use color::{Color, Palette, Theme, body_color};
+pub use draw_list::{Align, Arrow, DrawList, Label, Line, Plate, Point, PointShape, Sphere, Stroke};
+pub use format::{number, with_unit};
+pub use gizmo::{Axis, Handle, drag_along_axis, drag_in_plane, gizmo_handles, snap, snap_step};
+pub use input::{ViewInput, Viewport};
+pub use list_cache::ListCache;
+pub use overlays::{OVERLAYS, Overlay, OverlaySet};
+pub use pick::{Hit, pick, pick_rect};
+pub use see_through::is_see_through;
+pub use trails::{Trail, Trails};
+pub use views::{VIEWS, ViewPreset};

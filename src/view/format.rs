@@ -1,0 +1,28 @@
+//! Numbers for people: short, with SI prefixes where the unit is metres.
+
+/// `value` with at most `digits` digits after the point and no trailing zeros; never `-0`.
+pub fn number(value: f64, digits: usize) -> String {
+    let text = format!("{value:.digits$}");
+    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+/// A length in the unit that keeps it short: `20 cm`, `1 m`, `5 km`.
+pub fn with_unit(metres: f64) -> String {
+    const UNITS: [(f64, &str); 5] = [(1e3, "km"), (1.0, "m"), (1e-2, "cm"), (1e-3, "mm"), (1e-6, "µm")];
+    let (scale, unit) = UNITS
+        .into_iter()
+        .find(|(scale, _)| metres.abs() >= scale * (1.0 - 1e-9))
+        .unwrap_or(UNITS[UNITS.len() - 1]);
+    format!("{} {unit}", number(metres / scale, 3))
+}
+
+/// The largest of 1, 2, 5 × 10^k that is not above `value`; 1 for values that have none.
+pub(super) fn round_down_125(value: f64) -> f64 {
+    if !(value.is_normal() && value > 0.0) {
+        return 1.0;
+    }
+    let power = 10_f64.powi((value.log10() + 1e-12).floor() as i32);
+    let mantissa = value / power * (1.0 + 1e-12);
+    power * [5.0, 2.0].into_iter().find(|step| mantissa >= *step).unwrap_or(1.0)
+}

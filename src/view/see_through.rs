@@ -1,0 +1,75 @@
+//! See-through walls: a plate that stands between the eye and the scene is drawn as glass and not picked,
+//! so that a closed box shows its inside from everywhere.
+//!
+//! A *wall* is a plate with the whole scene on one side of it: all corners of the map, or the centres of
+//! all other bodies. Plates inside the scene are no walls and stay solid.
+
+use glam::DVec3;
+
+use super::stage::{Posed, Stage};
+use super::{Bounds, Camera, Projection, ViewInput};
+use crate::scene::{NodeKey, Shape, rotation_matrix};
+
+/// How far past a wall the scene may reach, over the size of the scene: walls meet at their edges and
+/// files write rotations with six digits.
+const TOLERANCE: f64 = 1e-3;
+
+/// At most this many bodies vote, so that a scene of 100 000 plates stays quick.
+const VOTERS: usize = 96;
+
+/// What the scene's extent says about walls.
+pub(super) struct Walls {
+    map_corners: [DVec3; 8],
+    centers: Vec<DVec3>,
+    tolerance: f64,
+}
+
+impl Walls {
+    pub fn new(map: Bounds, bodies: &[Posed<'_>]) -> Self {
+        let stride = bodies.len().div_ceil(VOTERS).max(1);
+        let centers = bodies.iter().step_by(stride).map(|posed| posed.position).collect();
+        Self { map_corners: map.corners(), centers, tolerance: TOLERANCE * map.size().length() }
+    }
+
+    /// Whether `posed` is a wall that hides the scene from this camera.
+    pub fn is_see_through(&self, posed: &Posed<'_>, camera: &Camera) -> bool {
+        let Shape::Plane { .. } = posed.body.shape else { return false };
+        let normal = rotation_matrix(posed.body.rotation).z_axis;
+        let Some(scene_side) = self.scene_side(posed.position, normal) else { return false };
+        let eye_side = match camera.projection {
+            Projection::Perspective => (camera.eye() - posed.position).dot(normal),
+            // Seen edge-on a wall hides nothing; rounding must not make it flicker.
+            Projection::Orthographic => zero_below(camera.backward().dot(normal), 1e-6),
+        };
+        scene_side * eye_side < 0.0
+    }
+
+    /// +1 or −1: the side of the plate on which the whole scene lies; `None` if it lies on both.
+    fn scene_side(&self, place: DVec3, normal: DVec3) -> Option<f64> {
+        self.one_side(&self.map_corners, place, normal)
+            .or_else(|| self.one_side(&self.centers, place, normal))
+    }
+
+    fn one_side(&self, points: &[DVec3], place: DVec3, normal: DVec3) -> Option<f64> {
+        let (mut low, mut high) = (0.0_f64, 0.0_f64);
+        for point in points {
+            let height = (*point - place).dot(normal);
+            (low, high) = (low.min(height), high.max(height));
+        }
+        match (low < -self.tolerance, high > self.tolerance) {
+            (false, true) => Some(1.0),
+            (true, false) => Some(-1.0),
+            _ => None,
+        }
+    }
+}
+
+fn zero_below(value: f64, limit: f64) -> f64 {
+    if value.abs() < limit { 0.0 } else { value }
+}
+
+/// Whether the plate `key` is drawn as glass in this view.
+pub fn is_see_through(input: &ViewInput<'_>, key: NodeKey) -> bool {
+    let stage = Stage::new(input);
+    stage.bodies.iter().any(|posed| posed.body.key == key && stage.is_see_through(posed))
+}

@@ -1,0 +1,72 @@
+//! The scene as it stands at the moment of the picture: bodies in their places, and what every builder needs.
+
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+
+use super::{Bounds, Camera, Color, Palette, ViewInput, bounds, color, see_through::Walls};
+use crate::record::BodyFrame;
+use crate::scene::{Body, NodeKey};
+
+/// A body where it is now.
+pub(super) struct Posed<'a> {
+    pub body: &'a Body,
+    pub position: DVec3,
+    /// What the simulation says of it; `None` for statics and without a simulation.
+    pub now: Option<&'a BodyFrame>,
+    pub color: Color,
+    pub selected: bool,
+    pub hovered: bool,
+}
+
+/// Read-only context of one picture.
+pub(super) struct Stage<'a> {
+    pub input: &'a ViewInput<'a>,
+    pub camera: Camera,
+    pub palette: &'static Palette,
+    /// Visible bodies in file order.
+    pub bodies: Vec<Posed<'a>>,
+    /// Around the map.
+    pub map: Bounds,
+    pub walls: Walls,
+}
+
+impl<'a> Stage<'a> {
+    pub fn new(input: &'a ViewInput<'a>) -> Self {
+        let palette = input.theme.palette();
+        let now: FxHashMap<NodeKey, &BodyFrame> =
+            input.frame.iter().flat_map(|frame| &frame.bodies).map(|body| (body.key, body)).collect();
+        let mut nth_dynamic = 0;
+        let mut bodies = Vec::with_capacity(input.scene.bodies.len());
+        for body in &input.scene.bodies {
+            let color = color::body_color(body, nth_dynamic, palette);
+            nth_dynamic += usize::from(body.is_dynamic());
+            let now = now.get(&body.key).copied();
+            let position = now.map_or(body.position, |now| now.position);
+            if body.hidden || !position.is_finite() {
+                continue;
+            }
+            let selected = input.selection.contains(&body.key);
+            let hovered = input.hovered == Some(body.key);
+            bodies.push(Posed { body, position, now, color, selected, hovered });
+        }
+        let map = bounds::map_bounds(input.scene);
+        let walls = Walls::new(map, &bodies);
+        Self { input, camera: input.camera, palette, bodies, map, walls }
+    }
+
+    /// Metres per point at `place`.
+    pub fn metres_per_point(&self, place: DVec3) -> f64 {
+        self.camera.world_per_pixel_at(place, self.input.viewport.height)
+    }
+
+    /// Where a place is seen, in points from the top left corner; `None` behind the eye or far outside.
+    pub fn on_screen(&self, place: DVec3) -> Option<glam::DVec2> {
+        let ndc = self.camera.project(place, self.input.viewport.aspect())?;
+        let inside = ndc.x.abs() < 1.5 && ndc.y.abs() < 1.5;
+        inside.then(|| self.input.viewport.points(ndc.truncate()))
+    }
+
+    pub fn is_see_through(&self, posed: &Posed<'_>) -> bool {
+        self.walls.is_see_through(posed, &self.camera)
+    }
+}
