@@ -1,1 +1,82 @@
-//! (to come)
+//! The command line: verbs that need no display. Knows neither the editor nor the window.
+
+mod check;
+mod error;
+mod input;
+mod number;
+mod output;
+mod run;
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+pub use check::CheckArgs;
+pub use error::{CliError, say};
+pub use input::{Examined, examine};
+pub use run::RunArgs;
+
+/// Design 3D rigid body scenes, step their simulation event by event, and see how accurate it is.
+#[derive(Debug, Parser)]
+#[command(
+    name = "polyscene",
+    version,
+    args_conflicts_with_subcommands = true,
+    subcommand_value_name = "VERB",
+    subcommand_help_heading = "Verbs",
+    disable_help_subcommand = true,
+    after_help = "Without a verb the editor's window opens; a file named like a verb is given as ./run.\n\n\
+                  Exit codes: 0 fine (warnings allowed), 1 the scene has errors, 2 bad usage or an output that \
+                  can't be written, 3 the run stopped on a numerical fault, 130 interrupted."
+)]
+struct Cli {
+    #[command(subcommand)]
+    verb: Option<Verb>,
+
+    /// Scene file to open in the editor
+    scene: Option<PathBuf>,
+}
+
+/// The table of verbs: one line here and one in [`Verb::execute`].
+#[derive(Debug, Subcommand)]
+pub enum Verb {
+    Run(RunArgs),
+    Check(CheckArgs),
+}
+
+impl Verb {
+    /// Does what was asked; the error says how it ended badly.
+    pub fn execute(&self) -> Result<(), CliError> {
+        match self {
+            Self::Run(args) => run::run(args),
+            Self::Check(args) => check::check(args),
+        }
+    }
+}
+
+/// What the command line asks for.
+pub enum Request {
+    /// Open the editor, on this file if there is one.
+    Edit(Option<PathBuf>),
+    Verb(Verb),
+    /// Help, the version, or a complaint about the arguments.
+    Help(clap::Error),
+}
+
+/// Reads the command line.
+pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Request {
+    match Cli::try_parse_from(arguments) {
+        Ok(Cli { verb: Some(verb), .. }) => Request::Verb(verb),
+        Ok(Cli { verb: None, scene }) => Request::Edit(scene),
+        Err(error) => Request::Help(error),
+    }
+}
+
+/// Prints help or a complaint where it belongs: exit code 0 for help, 2 for bad usage.
+pub fn print_help(error: &clap::Error) -> ExitCode {
+    // A closed pipe (`--help | head`) is no reason to complain.
+    let _ = error.print();
+    ExitCode::from(if error.use_stderr() { 2 } else { 0 })
+}

@@ -1,0 +1,57 @@
+//! How a verb can end badly, and the exit code of each way.
+
+use std::fmt::Display;
+use std::io::Write as _;
+
+use crate::sim::{Fault, Simulation};
+
+/// Why a verb did not end well.
+#[derive(Debug, thiserror::Error)]
+pub enum CliError {
+    /// The problems themselves were printed already.
+    #[error("{0}")]
+    Scene(String),
+    /// Bad arguments, or an output that can't be written.
+    #[error("{0}")]
+    Usage(String),
+    /// The run stopped where a number went wrong.
+    #[error("the run stopped {0}")]
+    Fault(Fault),
+    /// Ctrl-C or a request to terminate.
+    #[error("interrupted at t = {time} s; what was written so far is complete")]
+    Interrupted { time: f64 },
+}
+
+impl CliError {
+    /// 1 the scene has errors, 2 bad usage, 3 a numerical fault, 130 interrupted.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Scene(_) => 1,
+            Self::Usage(_) => 2,
+            Self::Fault(_) => 3,
+            Self::Interrupted { .. } => 130,
+        }
+    }
+
+    /// The editor can't open its window; the verbs don't need one.
+    pub fn no_window(reason: impl Display) -> Self {
+        Self::Usage(format!(
+            "the editor can't open a window: {reason}\n\
+             Without a display, simulate a scene with `polyscene run SCENE --dt S --until S` and draw it \
+             with `polyscene render SCENE`."
+        ))
+    }
+
+    pub(super) fn unwritable(name: impl Display, error: &std::io::Error) -> Self {
+        Self::Usage(format!("can't write {name}: {error}"))
+    }
+
+    pub(super) fn interrupted(sim: &Simulation) -> Self {
+        Self::Interrupted { time: sim.time() }
+    }
+}
+
+/// Tells the person at the terminal. Nothing sensible is left to do when standard error is closed.
+pub fn say(message: impl Display) {
+    let _ = writeln!(std::io::stderr(), "polyscene: {message}");
+}

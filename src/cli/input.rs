@@ -1,0 +1,84 @@
+//! Reading a scene and collecting everything that is wrong with it.
+
+use std::io::Read as _;
+use std::path::Path;
+
+use super::CliError;
+use crate::scene::{Diagnostic, Document};
+use crate::sim::Simulation;
+
+/// A scene file is at most 256 MiB; one byte more is enough for the reader to say so.
+const STDIN_LIMIT: u64 = (256 << 20) + 1;
+
+/// A document, the simulation it starts (unless it has errors), and all problems in order of place.
+pub struct Examined {
+    pub document: Document,
+    pub simulation: Option<Simulation>,
+    pub problems: Vec<Diagnostic>,
+}
+
+impl Examined {
+    /// How many problems are errors.
+    pub fn error_count(&self) -> usize {
+        self.problems.iter().filter(|p| p.is_error()).count()
+    }
+
+    /// The problems as `file:line:column: severity: message (path); hint`, one line each.
+    pub fn lines(&self, file: &str) -> Vec<String> {
+        self.problems.iter().map(|problem| problem_line(file, problem)).collect()
+    }
+}
+
+/// Reads a file, or standard input for `-`, and examines it.
+pub fn open(path: &Path) -> Result<Examined, CliError> {
+    if path.as_os_str() != "-" {
+        return Ok(examine(Document::open(path)));
+    }
+    let mut bytes = Vec::new();
+    std::io::stdin()
+        .lock()
+        .take(STDIN_LIMIT)
+        .read_to_end(&mut bytes)
+        .map_err(|error| CliError::Usage(format!("can't read standard input: {error}")))?;
+    Ok(examine(Document::from_bytes(&bytes)))
+}
+
+/// What to call a scene file in messages.
+pub fn display_name(path: &Path) -> String {
+    if path.as_os_str() == "-" { "<stdin>".into() } else { path.display().to_string() }
+}
+
+/// Finds all problems: of the text, of what it means, and of the geometry at the start.
+pub fn examine(document: Document) -> Examined {
+    let mut problems = document.diagnostics().to_vec();
+    let mut simulation = None;
+    if !document.has_errors()
+        && let Some(scene) = document.scene()
+    {
+        let found = match Simulation::new(scene) {
+            Ok(compiled) => simulation.insert(compiled).start_warnings().to_vec(),
+            Err(error) => error.problems,
+        };
+        problems.extend(found.into_iter().map(|problem| placed(&document, problem)));
+        problems.sort_by_key(|problem| problem.position.unwrap_or_default());
+    }
+    Examined { document, simulation, problems }
+}
+
+/// The simulation knows the element but not where it stands in the file.
+fn placed(document: &Document, mut problem: Diagnostic) -> Diagnostic {
+    if let (None, Some(key)) = (problem.position, problem.key) {
+        (problem.position, problem.path) = document.place_of(key);
+    }
+    problem
+}
+
+fn problem_line(file: &str, problem: &Diagnostic) -> String {
+    let separator = if problem.position.is_some() { ":" } else { ": " };
+    one_line(&format!("{file}{separator}{problem}"))
+}
+
+/// Keeps a message on its line, and a hostile file's control characters out of the terminal.
+pub fn one_line(text: &str) -> String {
+    text.chars().flat_map(|c| if c.is_control() { c.escape_default().collect() } else { vec![c] }).collect()
+}

@@ -1,0 +1,178 @@
+//! `polyscene run`: simulates a scene and writes states, events and a summary.
+
+mod drive;
+mod final_scene;
+mod interrupt;
+mod progress;
+mod recorder;
+mod rows;
+mod samples;
+mod summary;
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use clap::{Args, ValueEnum};
+
+use self::drive::Ending;
+use self::recorder::Recorder;
+use self::samples::SampleGrid;
+use self::summary::Summary;
+use super::output::is_stdout;
+use super::{CliError, input, number};
+use crate::sim::EventKind;
+
+/// Simulate a scene from t = 0 and write states, events and a summary
+///
+/// All quantities are in SI units: metres, seconds, kilograms, joules. Δt only says when to look: events
+/// and states are the same bits for every Δt. The TimeSpeed of the file is for watching and scales nothing
+/// here. Without an output on standard output a summary for people is printed.
+#[derive(Debug, Args)]
+#[command(after_help = examples(), after_long_help = long_help())]
+pub struct RunArgs {
+    /// Scene file; `-` is standard input
+    scene: PathBuf,
+
+    /// Δt between samples in seconds; fractions such as 1/60 are fine
+    #[arg(long, value_name = "S", value_parser = number::seconds, allow_negative_numbers = true)]
+    dt: f64,
+
+    /// Model time at which to end, in seconds
+    #[arg(long, value_name = "S", value_parser = number::seconds, allow_negative_numbers = true)]
+    until: f64,
+
+    /// Write the state after every N-th Δt (besides the first and the last)
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
+    every: u64,
+
+    /// How to step
+    #[arg(long, value_enum, default_value_t = Method::Exact)]
+    method: Method,
+
+    /// Write states as JSON Lines to this file; `-` is standard output
+    #[arg(long, value_name = "FILE")]
+    states: Option<PathBuf>,
+
+    /// Write events as JSON Lines to this file; `-` is standard output
+    #[arg(long, value_name = "FILE")]
+    events: Option<PathBuf>,
+
+    /// Write the scene with the positions and velocities of the last state
+    #[arg(long = "final", value_name = "FILE.xml")]
+    final_scene: Option<PathBuf>,
+
+    /// Print one JSON object that sums the run up to standard output
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Method {
+    /// Event by event; Δt only samples
+    Exact,
+}
+
+impl Method {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+        }
+    }
+}
+
+pub(super) fn run(args: &RunArgs) -> Result<(), CliError> {
+    let grid = SampleGrid::new(args.dt, args.until).map_err(CliError::Usage)?;
+    refuse_clashing_outputs(args)?;
+
+    let name = input::display_name(&args.scene);
+    let examined = input::open(&args.scene)?;
+    let warnings = examined.lines(&name);
+    for line in &warnings {
+        super::say(line);
+    }
+    let errors = examined.error_count();
+    let Some(mut sim) = examined.simulation else {
+        return Err(CliError::Scene(format!("{name} can't be simulated: {errors} error(s)")));
+    };
+
+    let stop = interrupt::on_interrupt();
+    let mut recorder = Recorder::create(args, &grid)?;
+    let started = Instant::now();
+    let ending = drive::drive(&mut sim, &grid, args.every, &mut recorder, stop)?;
+    let wall_s = started.elapsed().as_secs_f64();
+    recorder.close()?;
+
+    let summary = Summary::new(&sim, &grid, &ending, recorder.max_overlap(), wall_s, &warnings);
+    if args.json {
+        summary.print_json()?;
+    } else if !args.writes_to_stdout() {
+        summary.print_for_people(&name, args.method.name())?;
+    }
+    match ending {
+        Ending::Finished => match &args.final_scene {
+            Some(path) => final_scene::write(&examined.document, &sim, path),
+            None => Ok(()),
+        },
+        Ending::NobodyListens => Ok(()),
+        Ending::Interrupted => Err(CliError::interrupted(&sim)),
+        Ending::Faulted(fault) => Err(CliError::Fault(fault)),
+    }
+}
+
+impl RunArgs {
+    /// The output files with their options' names.
+    fn outputs(&self) -> impl Iterator<Item = (&'static str, &Path)> {
+        [("--states", &self.states), ("--events", &self.events), ("--final", &self.final_scene)]
+            .into_iter()
+            .filter_map(|(option, path)| Some((option, path.as_deref()?)))
+    }
+
+    fn writes_to_stdout(&self) -> bool {
+        self.json || self.outputs().any(|(_, path)| is_stdout(path))
+    }
+}
+
+/// Two outputs in one place, or an output over the scene itself, would spoil both.
+fn refuse_clashing_outputs(args: &RunArgs) -> Result<(), CliError> {
+    let mut taken: Vec<(&str, PathBuf)> = Vec::new();
+    if args.json {
+        taken.push(("--json", "-".into()));
+    }
+    for (option, path) in args.outputs() {
+        // A file that is not there yet has no canonical path; its own will do.
+        let place = path.canonicalize().unwrap_or_else(|_| path.into());
+        if let Some((other, _)) = taken.iter().find(|(_, p)| *p == place) {
+            let place = if is_stdout(path) { "standard output".into() } else { path.display().to_string() };
+            return Err(CliError::Usage(format!("{other} and {option} can't both write to {place}")));
+        }
+        // `--final` replaces the file in one go after it was read; rows would destroy it at once.
+        if option != "--final" && args.scene.canonicalize().is_ok_and(|scene| scene == place) {
+            return Err(CliError::Usage(format!("{option} would overwrite the scene {}", path.display())));
+        }
+        taken.push((option, place));
+    }
+    Ok(())
+}
+
+fn examples() -> &'static str {
+    "Examples:\n  \
+     polyscene run scene.xml --dt 1/60 --until 60\n  \
+     polyscene run scene.xml --dt 0.01 --until 10 --events - | head\n  \
+     polyscene run scene.xml --dt 0.01 --until 10 --every 100 --states states.jsonl --json\n  \
+     polyscene run scene.xml --dt 1 --until 5 --final after-5-s.xml"
+}
+
+fn long_help() -> String {
+    let kinds: String =
+        EventKind::ALL.iter().map(|kind| format!("  {:<14} {}\n", kind.name(), kind.meaning())).collect();
+    format!(
+        "States: {{\"t\":0.5,\"bodies\":[{{\"id\":\"7\",\"x\":[..],\"v\":[..],\"state\":\"flight\"}}]}}, one row at \
+         t = 0, after every N-th Δt and at the end; state is flight, rest or slide.\n\n\
+         Events: {{\"seq\":1,\"t\":0.1,\"kind\":\"impact\",\"a\":\"7\",\"b\":\"9\",\"point\":[..],\"normal\":[..],\
+         \"impulse\":1.0,\"vn_before\":-2.0,\"vn_after\":2.0,\"group\":1,\"dt_index\":12}}, one row per contact; \
+         a has the smaller UserID, the normal points from a to b; b is null for events of one body. Ids are \
+         UserIDs; the k-th body of a repeated UserID is called UserID#k.\n\n\
+         Kinds of events:\n{kinds}\n{}",
+        examples()
+    )
+}

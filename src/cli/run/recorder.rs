@@ -1,0 +1,92 @@
+//! What a run leaves behind while it goes: rows, the worst overlap, the progress bar.
+
+use std::time::{Duration, Instant};
+
+use super::progress::Progress;
+use super::rows::{EventRow, StateRow};
+use super::{RunArgs, SampleGrid};
+use crate::cli::CliError;
+use crate::cli::output::LineSink;
+use crate::sim::{Event, Simulation};
+
+/// Rows reach their readers, and the bar moves, this often.
+const TICK: Duration = Duration::from_millis(100);
+
+pub struct Recorder {
+    states: Option<LineSink>,
+    events: Option<LineSink>,
+    progress: Progress,
+    last_tick: Instant,
+    max_overlap: f64,
+    /// Whether the run has a purpose besides the rows.
+    has_other_purpose: bool,
+}
+
+impl Recorder {
+    /// Creates the output files.
+    pub fn create(args: &RunArgs, grid: &SampleGrid) -> Result<Self, CliError> {
+        let states = args.states.as_deref().map(LineSink::create).transpose()?;
+        let events = args.events.as_deref().map(LineSink::create).transpose()?;
+        Ok(Self {
+            has_other_purpose: args.final_scene.is_some()
+                || args.json
+                || (states.is_none() && events.is_none()),
+            states,
+            events,
+            progress: Progress::new(grid.until, args.writes_to_stdout()),
+            last_tick: Instant::now(),
+            max_overlap: 0.0,
+        })
+    }
+
+    /// Takes down the state now.
+    pub fn sample(&mut self, sim: &Simulation) -> Result<(), CliError> {
+        self.max_overlap = self.max_overlap.max(sim.worst_overlap());
+        match &mut self.states {
+            Some(sink) => sink.row(&StateRow::new(sim)),
+            None => Ok(()),
+        }
+    }
+
+    /// Takes down an event of the `dt_index`-th Δt.
+    pub fn event(&mut self, sim: &Simulation, event: &Event, dt_index: u64) -> Result<(), CliError> {
+        match &mut self.events {
+            Some(sink) => sink.row(&EventRow::new(sim, event, dt_index)),
+            None => Ok(()),
+        }
+    }
+
+    /// Called often; acts every [`TICK`].
+    pub fn tick(&mut self, sim: &Simulation) -> Result<(), CliError> {
+        if self.last_tick.elapsed() < TICK {
+            return Ok(());
+        }
+        self.last_tick = Instant::now();
+        self.progress.show(sim);
+        self.flush()
+    }
+
+    /// Whether all that was asked for goes to pipes whose readers went away.
+    pub fn nobody_listens(&self) -> bool {
+        !self.has_other_purpose && self.sinks().all(LineSink::is_closed)
+    }
+
+    /// Deepest overlap at any sample taken, m.
+    pub fn max_overlap(&self) -> f64 {
+        self.max_overlap
+    }
+
+    /// Writes what is left and takes the bar away.
+    pub fn close(&mut self) -> Result<(), CliError> {
+        self.progress.clear();
+        self.flush()
+    }
+
+    fn flush(&mut self) -> Result<(), CliError> {
+        [&mut self.states, &mut self.events].into_iter().flatten().try_for_each(LineSink::flush)
+    }
+
+    fn sinks(&self) -> impl Iterator<Item = &LineSink> {
+        self.states.iter().chain(&self.events)
+    }
+}

@@ -1,0 +1,71 @@
+//! One line of the states file and one of the events file.
+
+use serde::Serialize;
+
+use crate::sim::{Event, Simulation};
+
+/// All dynamic bodies at one time.
+#[derive(Serialize)]
+pub struct StateRow<'a> {
+    t: f64,
+    bodies: Vec<BodyRow<'a>>,
+}
+
+#[derive(Serialize)]
+struct BodyRow<'a> {
+    id: &'a str,
+    x: [f64; 3],
+    v: [f64; 3],
+    state: &'static str,
+}
+
+impl<'a> StateRow<'a> {
+    pub fn new(sim: &'a Simulation) -> Self {
+        let bodies = sim.dynamic_bodies().filter_map(|body| {
+            let state = sim.state(body)?;
+            Some(BodyRow {
+                id: sim.label(body),
+                x: state.position.to_array(),
+                v: state.velocity.to_array(),
+                state: state.contact.name(),
+            })
+        });
+        Self { t: sim.time(), bodies: bodies.collect() }
+    }
+}
+
+/// One contact of one event.
+#[derive(Serialize)]
+pub struct EventRow<'a> {
+    seq: u64,
+    t: f64,
+    kind: &'static str,
+    a: &'a str,
+    b: Option<&'a str>,
+    point: [f64; 3],
+    normal: [f64; 3],
+    impulse: f64,
+    vn_before: f64,
+    vn_after: f64,
+    group: u64,
+    dt_index: u64,
+}
+
+impl<'a> EventRow<'a> {
+    pub fn new(sim: &'a Simulation, event: &Event, dt_index: u64) -> Self {
+        Self {
+            seq: event.seq,
+            t: event.time,
+            kind: event.kind.name(),
+            a: sim.label(event.a),
+            b: event.b.map(|b| sim.label(b)),
+            point: event.point.to_array(),
+            normal: event.normal.to_array(),
+            impulse: event.impulse,
+            vn_before: event.vn_before,
+            vn_after: event.vn_after,
+            group: event.group,
+            dt_index,
+        }
+    }
+}

@@ -1,0 +1,214 @@
+//! What a run came to, for programs (JSON) and for people.
+
+use std::fmt::Write as _;
+use std::io::{ErrorKind, Write as _};
+
+use serde::{Serialize, Serializer};
+
+use super::drive::Ending;
+use super::samples::SampleGrid;
+use crate::cli::CliError;
+use crate::sim::{Energy, EventKind, Plan, Simulation};
+
+/// The object that `--json` prints. What can't be computed is `null`.
+#[derive(Serialize)]
+pub struct Summary<'a> {
+    /// Model time reached, s.
+    t: f64,
+    /// Δt asked for, s.
+    dt: f64,
+    /// How many Δt the whole run has.
+    steps: u64,
+    /// Why the run stopped early; `null` when it reached its end.
+    stopped: Option<String>,
+    events: ByKind,
+    wall_s: f64,
+    energy: EnergyReport,
+    momentum: MomentumReport,
+    /// m, the deepest at any sample taken.
+    max_overlap: f64,
+    /// FNV-1a of the last state's bits, in hexadecimal.
+    hash: String,
+    work: WorkReport,
+    plan: PlanReport<'a>,
+    warnings: &'a [String],
+}
+
+/// Events by kind, in the order of [`EventKind::ALL`].
+struct ByKind([u64; EventKind::ALL.len()]);
+
+impl Serialize for ByKind {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(EventKind::ALL.iter().map(|kind| kind.name()).zip(self.0))
+    }
+}
+
+/// J.
+#[derive(Serialize)]
+struct EnergyReport {
+    kinetic: f64,
+    potential: Option<f64>,
+    total: Option<f64>,
+    residual: Option<f64>,
+}
+
+/// kg·m/s.
+#[derive(Serialize)]
+struct MomentumReport {
+    value: [f64; 3],
+    residual: f64,
+}
+
+/// What the answer cost.
+#[derive(Serialize)]
+struct WorkReport {
+    pair_tests: u64,
+    tile_crossings: u64,
+    segments: u64,
+    force_evaluations: u64,
+    stale_events: u64,
+}
+
+#[derive(Serialize)]
+struct PlanReport<'a> {
+    dynamic_bodies: usize,
+    static_bodies: usize,
+    motion: &'a str,
+    pairs: &'a [&'static str],
+    lasting_contact: bool,
+    left_out: &'a [&'static str],
+}
+
+impl<'a> Summary<'a> {
+    pub fn new(
+        sim: &'a Simulation,
+        grid: &SampleGrid,
+        ending: &Ending,
+        max_overlap: f64,
+        wall_s: f64,
+        warnings: &'a [String],
+    ) -> Self {
+        let counters = sim.counters();
+        let momentum = sim.momentum();
+        Self {
+            t: sim.time(),
+            dt: grid.dt,
+            steps: grid.steps,
+            stopped: match ending {
+                Ending::Finished => None,
+                Ending::NobodyListens => Some("every reader of the output went away".into()),
+                Ending::Interrupted => Some("interrupted".into()),
+                Ending::Faulted(fault) => Some(fault.to_string()),
+            },
+            events: ByKind(counters.events),
+            wall_s,
+            energy: energy_report(sim.energy()),
+            momentum: MomentumReport { value: momentum.value.to_array(), residual: momentum.residual },
+            max_overlap,
+            hash: format!("{:016x}", sim.hash()),
+            work: WorkReport {
+                pair_tests: counters.pair_tests,
+                tile_crossings: counters.tile_crossings,
+                segments: counters.segments,
+                force_evaluations: counters.force_evaluations,
+                stale_events: counters.stale_events,
+            },
+            plan: plan_report(sim.plan()),
+            warnings,
+        }
+    }
+
+    pub fn print_json(&self) -> Result<(), CliError> {
+        let text =
+            serde_json::to_string(self).map_err(|error| CliError::unwritable("--json", &error.into()))?;
+        print(&format!("{text}\n"))
+    }
+
+    pub fn print_for_people(&self, scene: &str, method: &str) -> Result<(), CliError> {
+        print(&self.for_people(scene, method))
+    }
+
+    fn for_people(&self, scene: &str, method: &str) -> String {
+        let total: u64 = self.events.0.iter().sum();
+        let mut text =
+            format!("{scene}: {} s in {} steps of {} s, method {method}\n", self.t, self.steps, self.dt);
+        if let Some(stopped) = &self.stopped {
+            line(&mut text, "stopped", stopped);
+        }
+        line(&mut text, "events", &format!("{total}{}", self.kinds()));
+        line(&mut text, "energy", &self.energy.for_people());
+        let [px, py, pz] = self.momentum.value;
+        let residual = self.momentum.residual;
+        line(&mut text, "momentum", &format!("({px:.6}, {py:.6}, {pz:.6}) kg·m/s, residual {residual:.1e}"));
+        line(&mut text, "overlap", &format!("at most {:.1e} m at a sample", self.max_overlap));
+        line(&mut text, "plan", &self.plan.for_people());
+        if !self.plan.left_out.is_empty() {
+            line(&mut text, "left out", &self.plan.left_out.join(", "));
+        }
+        let (speed, rate) = (self.t / self.wall_s, total as f64 / self.wall_s);
+        let speed = format!("{:.3} s, {speed:.1} times real time, {rate:.0} events/s", self.wall_s);
+        line(&mut text, "speed", &speed);
+        line(&mut text, "hash", &self.hash);
+        text
+    }
+
+    /// ` (240 impact, 2 rest)`, without the kinds that did not happen.
+    fn kinds(&self) -> String {
+        let kinds = EventKind::ALL.iter().zip(self.events.0).filter(|(_, count)| *count > 0);
+        let kinds: Vec<_> = kinds.map(|(kind, count)| format!("{count} {}", kind.name())).collect();
+        if kinds.is_empty() { String::new() } else { format!(" ({})", kinds.join(", ")) }
+    }
+}
+
+impl EnergyReport {
+    fn for_people(&self) -> String {
+        let Self { kinetic, potential, total, residual } = *self;
+        let (Some(potential), Some(total), Some(residual)) = (potential, total, residual) else {
+            return format!("{kinetic:.6} J kinetic; a force has no potential, so no total");
+        };
+        format!("{total:.6} J = {kinetic:.6} kinetic + {potential:.6} potential, residual {residual:.1e}")
+    }
+}
+
+impl PlanReport<'_> {
+    fn for_people(&self) -> String {
+        let mut text =
+            format!("{} dynamic, {} static; {} motion", self.dynamic_bodies, self.static_bodies, self.motion);
+        if !self.pairs.is_empty() {
+            let _ = write!(text, "; {}", self.pairs.join(", "));
+        }
+        if self.lasting_contact {
+            text.push_str("; contacts can last");
+        }
+        text
+    }
+}
+
+fn energy_report(energy: Energy) -> EnergyReport {
+    let Energy { kinetic, potential, total, residual } = energy;
+    EnergyReport { kinetic, potential, total, residual }
+}
+
+fn plan_report(plan: &Plan) -> PlanReport<'_> {
+    PlanReport {
+        dynamic_bodies: plan.dynamic_bodies,
+        static_bodies: plan.static_bodies,
+        motion: plan.motion,
+        pairs: &plan.pairs,
+        lasting_contact: plan.lasting_contact,
+        left_out: &plan.left_out,
+    }
+}
+
+fn line(text: &mut String, label: &str, value: &str) {
+    let _ = writeln!(text, "  {label:<10}{value}");
+}
+
+fn print(text: &str) -> Result<(), CliError> {
+    match std::io::stdout().write_all(text.as_bytes()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(CliError::unwritable("standard output", &error))
+        }
+        _ => Ok(()),
+    }
+}
