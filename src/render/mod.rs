@@ -1,1 +1,18 @@
-//! (to come)
+//! Draw lists to pixels with OpenGL: into a window's framebuffer, or into a picture without a window.
+//! Knows nothing of egui.
+
+mod batch;
+mod error;
+mod offscreen;
+mod passes;
+mod picture;
+mod programs;
+mod renderer;
+mod text;
+mod view_target;
+
+pub use error::RenderError;
+pub use offscreen::Offscreen;
+pub use picture::{Tile, render_picture};
+pub use renderer::{PixelRect, Renderer};
+pub use text::draw_labels;

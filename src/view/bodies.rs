@@ -1,7 +1,9 @@
 //! The bodies themselves: spheres, solid plates, and walls as glass.
 
-use super::stage::{Posed, Stage};
-use super::{Color, DrawList, Line, Plate, Point, PointShape, Sphere};
+use glam::DVec3;
+
+use super::stage::{Pen, Posed, Stage};
+use super::{Color, DrawList, Plate, Point, PointShape, Sphere};
 use crate::scene::{Shape, rotation_matrix};
 
 /// Spheres are never drawn smaller than this, so that they don't vanish: radius in points.
@@ -17,8 +19,11 @@ pub(super) fn add(stage: &Stage<'_>, list: &mut DrawList) {
         match posed.body.shape {
             Shape::Sphere { radius } => add_sphere(stage, list, posed, radius),
             Shape::Plane { half_x, half_y } => {
-                let edged = plates <= MOST_EDGED_PLATES || posed.selected || posed.hovered;
-                add_plate(stage, list, &mut glass, posed, [half_x, half_y], edged);
+                let edged = plates <= MOST_EDGED_PLATES;
+                let rotation = rotation_matrix(posed.body.rotation);
+                let along = [rotation.x_axis, rotation.y_axis];
+                let face = Face { center: posed.position, along, half: [half_x, half_y], edged };
+                add_plate(stage, list, &mut glass, posed, face);
             }
             Shape::Unbuilt { .. } => {
                 let (position, color) = (list.local(posed.position), ring(stage, posed).0);
@@ -54,41 +59,57 @@ fn add_sphere(stage: &Stage<'_>, list: &mut DrawList, posed: &Posed<'_>, radius:
     });
 }
 
-fn add_plate(
-    stage: &Stage<'_>,
-    list: &mut DrawList,
-    glass: &mut Vec<Plate>,
-    posed: &Posed<'_>,
-    half: [f64; 2],
-    edged: bool,
-) {
-    let rotation = rotation_matrix(posed.body.rotation);
-    let (half_x, half_y) = (rotation.x_axis * half[0], rotation.y_axis * half[1]);
+fn add_plate(stage: &Stage<'_>, list: &mut DrawList, glass: &mut Vec<Plate>, posed: &Posed<'_>, face: Face) {
     let see_through = stage.is_see_through(posed);
-    let plate = |color| Plate {
-        center: list.local(posed.position),
-        half_x: half_x.as_vec3(),
-        half_y: half_y.as_vec3(),
-        color,
-    };
-    match (see_through, posed.selected || posed.hovered) {
-        (false, _) => list.plates.push(plate(posed.color)),
+    let marked = posed.selected || posed.hovered;
+    match (see_through, marked) {
+        (false, _) => list.plates.push(face.plate(stage, list, posed.color)),
         // A wall in front of the scene shows only when it is meant, or it would veil everything behind it.
-        (true, true) => glass.push(plate(ring(stage, posed).0.with_alpha(26))),
+        (true, true) => glass.push(face.plate(stage, list, ring(stage, posed).0.with_alpha(26))),
         (true, false) => {}
     }
-    if !edged {
-        return;
-    }
-    let (color, width) = match (posed.selected || posed.hovered, see_through) {
+    let (color, width) = match (marked, see_through) {
         (true, _) => (ring(stage, posed).0, 2.5),
         (false, true) => (stage.palette.glass_edge, 1.0),
         (false, false) => (posed.color.mix(stage.palette.plate_edge, 0.6), 1.25),
     };
-    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
-        .map(|(x, y)| list.local(posed.position + half_x * x + half_y * y));
-    for i in 0..4 {
-        let (from, to) = (corners[i], corners[(i + 1) % 4]);
-        list.lines.push(Line { from, to, color, width, on_top: false });
+    if marked || face.edged {
+        let corners = face.corners();
+        for i in 0..4 {
+            let pen = Pen { color, width, on_top: marked && see_through };
+            stage.add_line(list, [corners[i], corners[(i + 1) % 4]], pen);
+        }
+    }
+}
+
+/// A rectangle in the world: its middle, and unit vectors with half sides along its edges.
+struct Face {
+    center: DVec3,
+    along: [DVec3; 2],
+    half: [f64; 2],
+    edged: bool,
+}
+
+impl Face {
+    fn corners(&self) -> [DVec3; 4] {
+        let [x, y] = [self.along[0] * self.half[0], self.along[1] * self.half[1]];
+        [self.center - x - y, self.center + x - y, self.center + x + y, self.center - x + y]
+    }
+
+    /// The part near the view: a plate a million times larger than the view would lose its place in f32.
+    fn plate(&self, stage: &Stage<'_>, list: &DrawList, color: Color) -> Plate {
+        const REACH_OVER_HEIGHT: f64 = 2000.0;
+        let reach = REACH_OVER_HEIGHT * stage.camera.height;
+        let span = [0, 1].map(|i| {
+            let middle = (stage.camera.target - self.center).dot(self.along[i]);
+            let low = (middle - reach).clamp(-self.half[i], self.half[i]);
+            (low, (middle + reach).clamp(-self.half[i], self.half[i]) - low)
+        });
+        Plate {
+            corner: list.local(self.center + self.along[0] * span[0].0 + self.along[1] * span[1].0),
+            edge_x: (self.along[0] * span[0].1).as_vec3(),
+            edge_y: (self.along[1] * span[1].1).as_vec3(),
+            color,
+        }
     }
 }

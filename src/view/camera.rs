@@ -245,6 +245,37 @@ impl Camera {
         Some(DVec3::new(x * scale / aspect, y * scale, depth))
     }
 
+    /// The part of a segment that can be seen, with a margin around the view; `None` if there is none.
+    /// What is left is near enough to keep its precision as f32.
+    pub fn clip_segment(&self, from: DVec3, to: DVec3, aspect: f64) -> Option<(DVec3, DVec3)> {
+        const MARGIN: f64 = 1.25;
+        let half = match self.projection {
+            Projection::Perspective => HALF_FOV.tan(),
+            Projection::Orthographic => 0.5 * self.height,
+        };
+        // How far inside each plane of the view a point lies; linear along the segment.
+        let inside = |point: DVec3| {
+            let from_target = point - self.target;
+            let depth = self.distance() - from_target.dot(self.backward());
+            let (x, y) = (from_target.dot(self.right()), from_target.dot(self.up()));
+            let (reach, front) = match self.projection {
+                Projection::Perspective => (MARGIN * half * depth, depth - self.near()),
+                Projection::Orthographic => (MARGIN * half, 1.0),
+            };
+            [reach * aspect - x, reach * aspect + x, reach - y, reach + y, front]
+        };
+        let (mut start, mut end) = (0.0_f64, 1.0_f64);
+        for (a, b) in inside(from).into_iter().zip(inside(to)) {
+            match (a < 0.0, b < 0.0) {
+                (true, true) => return None,
+                (true, false) => start = start.max(a / (a - b)),
+                (false, true) => end = end.min(a / (a - b)),
+                (false, false) => {}
+            }
+        }
+        (start <= end).then(|| (from.lerp(to, start), from.lerp(to, end)))
+    }
+
     /// Metres per point (or pixel) at the target, in a view of that height.
     pub fn world_per_pixel(&self, view_height: f64) -> f64 {
         self.height / view_height.max(1.0)

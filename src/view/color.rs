@@ -7,6 +7,9 @@ use crate::scene::{Body, Shape};
 pub struct Color(pub [u8; 4]);
 
 impl Color {
+    /// Draws nothing.
+    pub const NONE: Self = Self([0, 0, 0, 0]);
+
     pub const fn rgb(r: u8, g: u8, b: u8) -> Self {
         Self([r, g, b, 255])
     }

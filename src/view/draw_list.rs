@@ -45,12 +45,12 @@ pub struct Sphere {
     pub hatched: bool,
 }
 
-/// A two-sided rectangle: `center` ± `half_x` ± `half_y`.
+/// A two-sided rectangle with a corner and the edges from there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plate {
-    pub center: Vec3,
-    pub half_x: Vec3,
-    pub half_y: Vec3,
+    pub corner: Vec3,
+    pub edge_x: Vec3,
+    pub edge_y: Vec3,
     /// Alpha < 1 is drawn in the transparent pass.
     pub color: Color,
 }
@@ -113,6 +113,21 @@ pub enum Align {
     RightBottom,
 }
 
+impl Align {
+    /// The point's place in the box: 0 = left and top, 1 = right and bottom.
+    pub fn fractions(self) -> (f32, f32) {
+        match self {
+            Self::LeftCenter => (0.0, 0.5),
+            Self::Center => (0.5, 0.5),
+            Self::RightCenter => (1.0, 0.5),
+            Self::CenterTop => (0.5, 0.0),
+            Self::CenterBottom => (0.5, 1.0),
+            Self::LeftTop => (0.0, 0.0),
+            Self::RightBottom => (1.0, 1.0),
+        }
+    }
+}
+
 /// Text over the picture; points from the view's top left corner.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Label {
@@ -122,8 +137,8 @@ pub struct Label {
     /// Height of the font, points.
     pub size: f32,
     pub align: Align,
-    /// A soft plate behind the text keeps it legible over the scene.
-    pub backed: bool,
+    /// Of a soft plate behind the text that keeps it legible over the scene; alpha 0 = none.
+    pub back: Color,
 }
 
 impl DrawList {

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3, Vec2};
 
 use super::format::round_down_125;
 use super::stage::Stage;
-use super::{Align, Axis, DrawList, Label, Stroke, with_unit};
+use super::{Align, Axis, Color, DrawList, Label, Stroke, with_unit};
 
 /// Views smaller than this have no room for furniture, points.
 const SMALLEST_VIEW: f64 = 120.0;
@@ -39,7 +39,7 @@ pub(super) fn axis_triad(stage: &Stage<'_>, list: &mut DrawList) {
                 color,
                 size: 13.0,
                 align: Align::Center,
-                backed: false,
+                back: Color::NONE,
             });
         }
     }
@@ -68,6 +68,6 @@ pub(super) fn scale_bar(stage: &Stage<'_>, list: &mut DrawList) {
         color,
         size: 12.0,
         align: Align::CenterBottom,
-        backed: false,
+        back: Color::NONE,
     });
 }

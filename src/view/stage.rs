@@ -3,7 +3,7 @@
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
-use super::{Bounds, Camera, Color, Palette, ViewInput, bounds, color, see_through::Walls};
+use super::{Bounds, Camera, Color, DrawList, Line, Palette, ViewInput, bounds, color, see_through::Walls};
 use crate::record::BodyFrame;
 use crate::scene::{Body, NodeKey};
 
@@ -16,6 +16,25 @@ pub(super) struct Posed<'a> {
     pub color: Color,
     pub selected: bool,
     pub hovered: bool,
+}
+
+/// How a line is drawn.
+#[derive(Clone, Copy)]
+pub(super) struct Pen {
+    pub color: Color,
+    /// Points.
+    pub width: f32,
+    pub on_top: bool,
+}
+
+impl Pen {
+    pub fn hidden_by_bodies(color: Color, width: f32) -> Self {
+        Self { color, width, on_top: false }
+    }
+
+    pub fn over_bodies(color: Color, width: f32) -> Self {
+        Self { color, width, on_top: true }
+    }
 }
 
 /// Read-only context of one picture.
@@ -64,6 +83,26 @@ impl<'a> Stage<'a> {
         let ndc = self.camera.project(place, self.input.viewport.aspect())?;
         let inside = ndc.x.abs() < 1.5 && ndc.y.abs() < 1.5;
         inside.then(|| self.input.viewport.points(ndc.truncate()))
+    }
+
+    /// Adds the visible part of a world line.
+    pub fn add_line(&self, list: &mut DrawList, ends: [DVec3; 2], pen: Pen) {
+        if let Some((from, to)) = self.camera.clip_segment(ends[0], ends[1], self.input.viewport.aspect()) {
+            let (from, to) = (list.local(from), list.local(to));
+            list.lines.push(Line { from, to, color: pen.color, width: pen.width, on_top: pen.on_top });
+        }
+    }
+
+    /// Adds the twelve edges of a box.
+    pub fn add_box(&self, list: &mut DrawList, bounds: Bounds, pen: Pen) {
+        let corners = bounds.corners();
+        for (i, corner) in corners.iter().enumerate() {
+            for bit in [1, 2, 4] {
+                if i & bit == 0 {
+                    self.add_line(list, [*corner, corners[i | bit]], pen);
+                }
+            }
+        }
     }
 
     pub fn is_see_through(&self, posed: &Posed<'_>) -> bool {

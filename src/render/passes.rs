@@ -1,0 +1,194 @@
+//! One picture, pass by pass, into whatever framebuffer is bound.
+
+use glow::HasContext as _;
+use three_d::{
+    Blend, Context, Cull, DepthTest, Mat4, Program, RenderStates, Viewport, WriteMask, vec2, vec3, vec4,
+};
+
+use super::RenderError;
+use super::batch::{Batch, rgba};
+use super::programs::Programs;
+use crate::view::{Color, DrawList};
+
+/// Programs and buffers; the buffers hold one list at a time.
+pub(super) struct Passes {
+    context: Context,
+    programs: Programs,
+    spheres: Batch,
+    solid_plates: Batch,
+    glass_plates: Batch,
+    lines: Batch,
+    top_lines: Batch,
+    arrows: Batch,
+    points: Batch,
+    strokes: Batch,
+}
+
+/// How far lines are pulled towards the eye, over the distance: more than the depth buffer's steps.
+const LINE_PULL: f32 = 2e-3;
+
+impl Passes {
+    pub fn new(context: Context) -> Result<Self, RenderError> {
+        Ok(Self {
+            programs: Programs::new(&context)?,
+            spheres: Batch::spheres(&context),
+            solid_plates: Batch::plates(&context),
+            glass_plates: Batch::plates(&context),
+            lines: Batch::strokes(&context),
+            top_lines: Batch::strokes(&context),
+            arrows: Batch::strokes(&context),
+            points: Batch::points(&context),
+            strokes: Batch::strokes(&context),
+            context,
+        })
+    }
+
+    pub fn context(&self) -> &Context {
+        &self.context
+    }
+
+    /// Draws the whole list; `size` is the bound framebuffer's, pixels.
+    pub fn draw(&mut self, list: &DrawList, size: [u32; 2]) {
+        self.upload(list);
+        let view = View::new(list, size);
+        self.clear(list, &view);
+        self.with_clamped_depth(!list.is_perspective, |passes| {
+            passes.draw_plates(&passes.solid_plates, &view, SOLID);
+            passes.draw_spheres(&view);
+            passes.draw_strokes(&passes.lines, &view, LINE_PULL, TESTED);
+            passes.draw_plates(&passes.glass_plates, &view, TESTED);
+            passes.draw_strokes(&passes.top_lines, &view, 0.0, ON_TOP);
+            passes.draw_strokes(&passes.arrows, &view, 0.0, ON_TOP);
+            passes.draw_points(&view);
+        });
+        self.draw_strokes(&self.strokes, &view.flat(), 0.0, ON_TOP);
+    }
+
+    fn upload(&mut self, list: &DrawList) {
+        let scale = list.viewport.pixels_per_point as f32;
+        let (solid, glass): (Vec<_>, Vec<_>) = list.plates.iter().partition(|plate| plate.color.is_opaque());
+        self.spheres.fill_spheres(&list.spheres, scale);
+        self.solid_plates.fill_plates(&solid);
+        self.glass_plates.fill_plates(&glass);
+        self.lines.fill_lines(list.lines.iter().filter(|line| !line.on_top), scale);
+        self.top_lines.fill_lines(list.lines.iter().filter(|line| line.on_top), scale);
+        self.arrows.fill_arrows(&list.arrows, scale);
+        self.points.fill_points(&list.points, scale);
+        self.strokes.fill_strokes(list, scale);
+    }
+
+    fn clear(&self, list: &DrawList, view: &View) {
+        let gl = &self.context;
+        // SAFETY: plain OpenGL calls on the current context with valid arguments, here and below.
+        unsafe {
+            gl.disable(glow::SCISSOR_TEST);
+            gl.color_mask(true, true, true, true);
+            gl.depth_mask(true);
+            gl.clear_color(0.0, 0.0, 0.0, 1.0);
+            gl.clear_depth_f32(1.0);
+            gl.clear(glow::COLOR_BUFFER_BIT | glow::DEPTH_BUFFER_BIT);
+        }
+        let program = &self.programs.background;
+        let [top, bottom] = list.background.map(color);
+        program.use_uniform_if_required("topColor", top);
+        program.use_uniform_if_required("bottomColor", bottom);
+        program.draw_arrays(ON_TOP, view.viewport, 3);
+    }
+
+    /// Orthographic views have a far limit, beyond which bodies are drawn at the limit and not cut off.
+    fn with_clamped_depth(&self, clamped: bool, draw: impl FnOnce(&Self)) {
+        let clamped = clamped && !self.context.version().is_embedded;
+        // SAFETY: as above; DEPTH_CLAMP exists in every desktop OpenGL from 3.2.
+        unsafe {
+            if clamped {
+                self.context.enable(glow::DEPTH_CLAMP);
+            }
+        }
+        draw(self);
+        unsafe {
+            if clamped {
+                self.context.disable(glow::DEPTH_CLAMP);
+            }
+        }
+    }
+
+    fn draw_spheres(&self, view: &View) {
+        // Silhouettes come from ray casting, which multisampling can't see: their coverage is in alpha.
+        // SAFETY: as above.
+        unsafe { self.context.enable(glow::SAMPLE_ALPHA_TO_COVERAGE) };
+        self.draw_instances(&self.programs.sphere, &self.spheres, view, 0.0, SOLID);
+        unsafe { self.context.disable(glow::SAMPLE_ALPHA_TO_COVERAGE) };
+    }
+
+    fn draw_plates(&self, batch: &Batch, view: &View, states: RenderStates) {
+        self.draw_instances(&self.programs.plate, batch, view, 0.0, states);
+    }
+
+    fn draw_strokes(&self, batch: &Batch, view: &View, pull: f32, states: RenderStates) {
+        self.draw_instances(&self.programs.stroke, batch, view, pull, states);
+    }
+
+    fn draw_points(&self, view: &View) {
+        self.draw_instances(&self.programs.point, &self.points, view, 0.0, ON_TOP);
+    }
+
+    fn draw_instances(&self, program: &Program, batch: &Batch, view: &View, pull: f32, states: RenderStates) {
+        if batch.count() == 0 {
+            return;
+        }
+        program.use_uniform_if_required("viewMatrix", view.view);
+        program.use_uniform_if_required("projection", view.projection);
+        program.use_uniform_if_required("skyward", view.skyward);
+        let size = vec2(view.viewport.width as f32, view.viewport.height as f32);
+        program.use_uniform_if_required("viewportPx", size);
+        program.use_uniform_if_required("pull", pull);
+        batch.bind(program);
+        program.draw_arrays_instanced(states, view.viewport, 6, batch.count());
+    }
+}
+
+/// Colour without alpha: a framebuffer's alpha stays 1, so that a picture is opaque.
+const RGB: WriteMask = WriteMask { red: true, green: true, blue: true, alpha: false, depth: false };
+
+const SOLID: RenderStates = RenderStates {
+    write_mask: WriteMask { depth: true, ..RGB },
+    depth_test: DepthTest::LessOrEqual,
+    blend: Blend::Disabled,
+    cull: Cull::None,
+};
+
+/// Blended, and hidden by what is nearer.
+const TESTED: RenderStates = RenderStates { write_mask: RGB, blend: Blend::TRANSPARENCY, ..SOLID };
+
+const ON_TOP: RenderStates = RenderStates { depth_test: DepthTest::Always, ..TESTED };
+
+/// The camera as uniforms.
+struct View {
+    view: Mat4,
+    projection: Mat4,
+    skyward: three_d::Vec3,
+    viewport: Viewport,
+}
+
+impl View {
+    fn new(list: &DrawList, [width, height]: [u32; 2]) -> Self {
+        let up = list.view.transform_vector3(glam::Vec3::Y);
+        Self {
+            view: Mat4::from(list.view.to_cols_array_2d()),
+            projection: Mat4::from(list.projection.to_cols_array_2d()),
+            skyward: vec3(up.x, up.y, up.z),
+            viewport: Viewport::new_at_origo(width, height),
+        }
+    }
+
+    /// Positions are device coordinates already.
+    fn flat(&self) -> Self {
+        let identity = Mat4::from(glam::Mat4::IDENTITY.to_cols_array_2d());
+        Self { view: identity, projection: identity, ..*self }
+    }
+}
+
+fn color(color: Color) -> three_d::Vec4 {
+    let [r, g, b, a] = rgba(color);
+    vec4(r, g, b, a)
+}

@@ -1,0 +1,107 @@
+//! Draws views into a window's framebuffer, and keeps each view's picture until its draw list changes.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use glow::HasContext as _;
+
+use super::RenderError;
+use super::passes::Passes;
+use super::view_target::ViewTarget;
+use crate::view::DrawList;
+
+/// A rectangle of a framebuffer in pixels; `y` counts from the bottom.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PixelRect {
+    pub x: i32,
+    pub y: i32,
+    pub width: i32,
+    pub height: i32,
+}
+
+impl PixelRect {
+    /// What both cover; may be empty.
+    pub fn intersection(self, other: Self) -> Self {
+        let (x, y) = (self.x.max(other.x), self.y.max(other.y));
+        let right = (self.x + self.width).min(other.x + other.width);
+        let top = (self.y + self.height).min(other.y + other.height);
+        Self { x, y, width: (right - x).max(0), height: (top - y).max(0) }
+    }
+
+    fn is_empty(self) -> bool {
+        self.width <= 0 || self.height <= 0
+    }
+}
+
+/// Everything that lives in one OpenGL context. All calls must be made with that context current.
+pub struct Renderer {
+    passes: Passes,
+    views: BTreeMap<usize, ViewTarget>,
+}
+
+impl Renderer {
+    /// Compiles the shaders.
+    pub fn new(gl: Arc<glow::Context>) -> Result<Self, RenderError> {
+        let context = three_d::Context::from_gl_context(gl)?;
+        Ok(Self { passes: Passes::new(context)?, views: BTreeMap::new() })
+    }
+
+    /// Puts the picture of `list` at `rect` of the bound framebuffer, cut to `clip`; redraws it only if
+    /// `list.revision` or the size differs from what this `view` (any number the caller chooses) showed
+    /// last. Leaves the bound framebuffer bound; other state (scissor, blending, program) is not restored.
+    /// Returns whether it was redrawn. The labels are left to the caller.
+    pub fn paint(
+        &mut self,
+        view: usize,
+        list: &DrawList,
+        rect: PixelRect,
+        clip: PixelRect,
+    ) -> Result<bool, RenderError> {
+        let visible = rect.intersection(clip);
+        if visible.is_empty() {
+            return Ok(false);
+        }
+        let gl = Arc::clone(self.passes.context());
+        // SAFETY: plain OpenGL calls on the current context, here and below.
+        let bound = unsafe { gl.get_parameter_framebuffer(glow::DRAW_FRAMEBUFFER_BINDING) };
+        let redrawn = self.update(view, list, [rect.width as u32, rect.height as u32]);
+        unsafe {
+            gl.enable(glow::SCISSOR_TEST);
+            gl.scissor(visible.x, visible.y, visible.width, visible.height);
+            gl.bind_framebuffer(glow::FRAMEBUFFER, bound);
+        }
+        let redrawn = redrawn?;
+        if let Some(target) = self.views.get(&view) {
+            target.copy_to(bound, [rect.x, rect.y]);
+        }
+        Ok(redrawn)
+    }
+
+    /// Forgets the pictures of views that are no longer shown.
+    pub fn keep_views(&mut self, keep: impl Fn(usize) -> bool) {
+        self.views.retain(|view, _| keep(*view));
+    }
+
+    /// Draws `list` at that size and returns the pixels: RGBA, top row first, without labels.
+    pub(super) fn read(&mut self, list: &DrawList, size: [u32; 2]) -> Result<Vec<u8>, RenderError> {
+        const PICTURE: usize = usize::MAX;
+        self.update(PICTURE, list, size)?;
+        let bottom_up = self.views.get(&PICTURE).map(ViewTarget::read).unwrap_or_default();
+        let row = size[0] as usize * 4;
+        Ok(bottom_up.chunks_exact(row.max(1)).rev().flatten().copied().collect())
+    }
+
+    fn update(&mut self, view: usize, list: &DrawList, size: [u32; 2]) -> Result<bool, RenderError> {
+        if !self.views.contains_key(&view) {
+            self.views.insert(view, ViewTarget::new(Arc::clone(self.passes.context()))?);
+        }
+        let Some(target) = self.views.get_mut(&view) else { return Ok(false) };
+        let same = target.size() == size && target.revision == list.revision && list.revision != 0;
+        if same {
+            return Ok(false);
+        }
+        target.resize(size)?;
+        target.draw(list.revision, || self.passes.draw(list, size));
+        Ok(true)
+    }
+}
