@@ -47,6 +47,15 @@ impl Batch {
         self.two.iter_mut().zip(two).for_each(|((_, buffer), data)| buffer.fill(data));
     }
 
+    /// One instance: OpenGL draws nothing without an attribute.
+    pub fn background(context: &Context) -> Self {
+        Self::new(context, &["topColor", "bottomColor"], &[], &[])
+    }
+
+    pub fn fill_background(&mut self, [top, bottom]: [Color; 2]) {
+        self.fill(1, &[vec![rgba(top)], vec![rgba(bottom)]], &[], &[]);
+    }
+
     pub fn spheres(context: &Context) -> Self {
         Self::new(context, &["centerRadius", "color", "ringColor"], &[], &["ringHatch"])
     }
@@ -133,6 +142,6 @@ fn shape_number(shape: PointShape) -> f32 {
     }
 }
 
-pub(super) fn rgba(color: Color) -> [f32; 4] {
+fn rgba(color: Color) -> [f32; 4] {
     color.0.map(|channel| f32::from(channel) / 255.0)
 }

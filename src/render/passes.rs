@@ -2,18 +2,19 @@
 
 use glow::HasContext as _;
 use three_d::{
-    Blend, Context, Cull, DepthTest, Mat4, Program, RenderStates, Viewport, WriteMask, vec2, vec3, vec4,
+    Blend, Context, Cull, DepthTest, Mat4, Program, RenderStates, Viewport, WriteMask, vec2, vec3,
 };
 
 use super::RenderError;
-use super::batch::{Batch, rgba};
+use super::batch::Batch;
 use super::programs::Programs;
-use crate::view::{Color, DrawList};
+use crate::view::DrawList;
 
 /// Programs and buffers; the buffers hold one list at a time.
 pub(super) struct Passes {
     context: Context,
     programs: Programs,
+    background: Batch,
     spheres: Batch,
     solid_plates: Batch,
     glass_plates: Batch,
@@ -31,6 +32,7 @@ impl Passes {
     pub fn new(context: Context) -> Result<Self, RenderError> {
         Ok(Self {
             programs: Programs::new(&context)?,
+            background: Batch::background(&context),
             spheres: Batch::spheres(&context),
             solid_plates: Batch::plates(&context),
             glass_plates: Batch::plates(&context),
@@ -51,7 +53,7 @@ impl Passes {
     pub fn draw(&mut self, list: &DrawList, size: [u32; 2]) {
         self.upload(list);
         let view = View::new(list, size);
-        self.clear(list, &view);
+        self.clear(&view);
         self.with_clamped_depth(!list.is_perspective, |passes| {
             passes.draw_plates(&passes.solid_plates, &view, SOLID);
             passes.draw_spheres(&view);
@@ -67,6 +69,7 @@ impl Passes {
     fn upload(&mut self, list: &DrawList) {
         let scale = list.viewport.pixels_per_point as f32;
         let (solid, glass): (Vec<_>, Vec<_>) = list.plates.iter().partition(|plate| plate.color.is_opaque());
+        self.background.fill_background(list.background);
         self.spheres.fill_spheres(&list.spheres, scale);
         self.solid_plates.fill_plates(&solid);
         self.glass_plates.fill_plates(&glass);
@@ -77,7 +80,7 @@ impl Passes {
         self.strokes.fill_strokes(list, scale);
     }
 
-    fn clear(&self, list: &DrawList, view: &View) {
+    fn clear(&self, view: &View) {
         let gl = &self.context;
         // SAFETY: plain OpenGL calls on the current context with valid arguments, here and below.
         unsafe {
@@ -89,10 +92,8 @@ impl Passes {
             gl.clear(glow::COLOR_BUFFER_BIT | glow::DEPTH_BUFFER_BIT);
         }
         let program = &self.programs.background;
-        let [top, bottom] = list.background.map(color);
-        program.use_uniform_if_required("topColor", top);
-        program.use_uniform_if_required("bottomColor", bottom);
-        program.draw_arrays(ON_TOP, view.viewport, 3);
+        self.background.bind(program);
+        program.draw_arrays_instanced(ON_TOP, view.viewport, 3, self.background.count());
     }
 
     /// Orthographic views have a far limit, beyond which bodies are drawn at the limit and not cut off.
@@ -186,9 +187,4 @@ impl View {
         let identity = Mat4::from(glam::Mat4::IDENTITY.to_cols_array_2d());
         Self { view: identity, projection: identity, ..*self }
     }
-}
-
-fn color(color: Color) -> three_d::Vec4 {
-    let [r, g, b, a] = rgba(color);
-    vec4(r, g, b, a)
 }
