@@ -142,8 +142,8 @@ impl<'a> Summary<'a> {
         line(&mut text, "momentum", &format!("({px:.6}, {py:.6}, {pz:.6}) kg·m/s, residual {residual:.1e}"));
         line(&mut text, "overlap", &format!("at most {:.1e} m at a sample", self.max_overlap));
         line(&mut text, "plan", &self.plan.for_people());
-        if !self.plan.left_out.is_empty() {
-            line(&mut text, "left out", &self.plan.left_out.join(", "));
+        for (nth, what) in self.plan.left_out.iter().enumerate() {
+            line(&mut text, if nth == 0 { "left out" } else { "" }, what);
         }
         let (speed, rate) = (self.t / self.wall_s, total as f64 / self.wall_s);
         let speed = format!("{:.3} s, {speed:.1} times real time, {rate:.0} events/s", self.wall_s);
