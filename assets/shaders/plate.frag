@@ -14,5 +14,5 @@ void main() {
     vec3 normal = dot(eyeNormal, ray) > 0.0 ? -eyeNormal : eyeNormal;
     float key = max(dot(normal, normalize(KEY_LIGHT)), 0.0);
     float sky = 0.5 + 0.5 * dot(normal, skyward);
-    outColor = vec4(tint.rgb * (0.46 + 0.22 * sky + 0.36 * key), tint.a);
+    outColor = vec4(tint.rgb * (0.60 + 0.16 * sky + 0.27 * key), tint.a);
 }

@@ -14,6 +14,7 @@ pub fn build_draw_list(input: &ViewInput<'_>) -> DrawList {
     overlays::highlight::add(&stage, &mut list);
     furniture::axis_triad(&stage, &mut list);
     furniture::scale_bar(&stage, &mut list);
+    furniture::legend(&stage, &mut list);
     list
 }
 
@@ -36,6 +37,7 @@ fn empty_list(stage: &Stage<'_>) -> DrawList {
         points: Vec::new(),
         strokes: Vec::new(),
         labels: Vec::new(),
+        legend: Vec::new(),
         notes: Vec::new(),
     }
 }

@@ -196,7 +196,8 @@ impl Camera {
 
     /// Moves (without turning) so that `bounds` fill most of the view.
     pub fn frame(&mut self, bounds: Bounds, aspect: f64) {
-        const MARGIN: f64 = 1.12;
+        // Around an axis view there is room for the grid's numbers.
+        let margin = if self.projection == Projection::Perspective { 1.05 } else { 1.18 };
         self.target = bounds.center();
         let (mut width, mut height) = (0.0_f64, 0.0_f64);
         for corner in bounds.corners() {
@@ -210,7 +211,7 @@ impl Camera {
             width = width.max((2.0 * from_center.dot(self.right()).abs()) + add * aspect);
             height = height.max((2.0 * from_center.dot(self.up()).abs()) + add);
         }
-        let fitting = MARGIN * height.max(width / aspect.max(1e-6));
+        let fitting = margin * height.max(width / aspect.max(1e-6));
         self.height = if fitting > 0.0 { fitting } else { 1.0 }.clamp(HEIGHT_RANGE.0, HEIGHT_RANGE.1);
     }
 

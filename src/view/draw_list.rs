@@ -29,6 +29,8 @@ pub struct DrawList {
     pub strokes: Vec<Stroke>,
     /// Text to draw over the picture.
     pub labels: Vec<Label>,
+    /// What the colours and arrows of this picture mean; already among the labels.
+    pub legend: Vec<(Color, String)>,
     /// What this picture leaves out, one sentence each; to be shown to the user.
     pub notes: Vec<String>,
 }

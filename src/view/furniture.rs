@@ -71,3 +71,23 @@ pub(super) fn scale_bar(stage: &Stage<'_>, list: &mut DrawList) {
         back: Color::NONE,
     });
 }
+
+/// The legend's lines above the scale bar, upwards.
+pub(super) fn legend(stage: &Stage<'_>, list: &mut DrawList) {
+    const LINE: f32 = 16.0;
+    if !has_room(stage) {
+        return;
+    }
+    let viewport = stage.input.viewport;
+    let corner = Vec2::new(viewport.width as f32 - 14.0, viewport.height as f32 - 46.0);
+    for (i, (color, text)) in list.legend.iter().enumerate() {
+        list.labels.push(Label {
+            position: corner - Vec2::new(0.0, LINE * i as f32),
+            text: text.clone(),
+            color: *color,
+            size: 12.0,
+            align: Align::RightBottom,
+            back: Color::NONE,
+        });
+    }
+}

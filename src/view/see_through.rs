@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use super::stage::{Posed, Stage};
 use super::{Bounds, Camera, Projection, ViewInput};
-use crate::scene::{NodeKey, Shape, rotation_matrix};
+use crate::scene::{Body, NodeKey, Shape, rotation_matrix};
 
 /// How far past a wall the scene may reach, over the size of the scene: walls meet at their edges and
 /// files write rotations with six digits.
@@ -31,25 +31,17 @@ impl Walls {
         Self { map_corners: map.corners(), centers, tolerance: TOLERANCE * map.size().length() }
     }
 
-    /// Whether `posed` is a wall that hides the scene from this camera.
-    pub fn is_see_through(&self, posed: &Posed<'_>, camera: &Camera) -> bool {
-        let Shape::Plane { .. } = posed.body.shape else { return false };
-        let normal = rotation_matrix(posed.body.rotation).z_axis;
-        let Some(scene_side) = self.scene_side(posed.position, normal) else { return false };
-        let eye_side = match camera.projection {
-            Projection::Perspective => (camera.eye() - posed.position).dot(normal),
-            // Seen edge-on a wall hides nothing; rounding must not make it flicker.
-            Projection::Orthographic => zero_below(camera.backward().dot(normal), 1e-6),
-        };
-        scene_side * eye_side < 0.0
+    /// The unit normal of a wall towards the scene; `None` for a body that is no wall.
+    pub fn inward(&self, body: &Body, position: DVec3) -> Option<DVec3> {
+        let Shape::Plane { .. } = body.shape else { return None };
+        let normal = rotation_matrix(body.rotation).z_axis;
+        let side = self
+            .one_side(&self.map_corners, position, normal)
+            .or_else(|| self.one_side(&self.centers, position, normal))?;
+        Some(normal * side)
     }
 
-    /// +1 or −1: the side of the plate on which the whole scene lies; `None` if it lies on both.
-    fn scene_side(&self, place: DVec3, normal: DVec3) -> Option<f64> {
-        self.one_side(&self.map_corners, place, normal)
-            .or_else(|| self.one_side(&self.centers, place, normal))
-    }
-
+    /// +1 or −1: the side on which all points lie; `None` if they lie on both or in the plane.
     fn one_side(&self, points: &[DVec3], place: DVec3, normal: DVec3) -> Option<f64> {
         let (mut low, mut high) = (0.0_f64, 0.0_f64);
         for point in points {
@@ -64,8 +56,13 @@ impl Walls {
     }
 }
 
-fn zero_below(value: f64, limit: f64) -> f64 {
-    if value.abs() < limit { 0.0 } else { value }
+/// Whether a wall with this inward normal stands between the eye and the scene.
+pub(super) fn is_between(inward: DVec3, position: DVec3, camera: &Camera) -> bool {
+    match camera.projection {
+        Projection::Perspective => (camera.eye() - position).dot(inward) < 0.0,
+        // Seen edge-on a wall hides nothing; rounding must not make it flicker.
+        Projection::Orthographic => camera.backward().dot(inward) < -1e-6,
+    }
 }
 
 /// Whether the plate `key` is drawn as glass in this view.

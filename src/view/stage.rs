@@ -3,7 +3,10 @@
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
-use super::{Bounds, Camera, Color, DrawList, Line, Palette, ViewInput, bounds, color, see_through::Walls};
+use super::{
+    Bounds, Camera, Color, DrawList, Line, Palette, ViewInput, bounds, color,
+    see_through::{Walls, is_between},
+};
 use crate::record::BodyFrame;
 use crate::scene::{Body, NodeKey};
 
@@ -14,6 +17,8 @@ pub(super) struct Posed<'a> {
     /// What the simulation says of it; `None` for statics and without a simulation.
     pub now: Option<&'a BodyFrame>,
     pub color: Color,
+    /// Unit normal towards the scene, for a plate that is a wall.
+    pub inward: Option<DVec3>,
     pub selected: bool,
     pub hovered: bool,
 }
@@ -46,7 +51,6 @@ pub(super) struct Stage<'a> {
     pub bodies: Vec<Posed<'a>>,
     /// Around the map.
     pub map: Bounds,
-    pub walls: Walls,
 }
 
 impl<'a> Stage<'a> {
@@ -66,11 +70,17 @@ impl<'a> Stage<'a> {
             }
             let selected = input.selection.contains(&body.key);
             let hovered = input.hovered == Some(body.key);
-            bodies.push(Posed { body, position, now, color, selected, hovered });
+            bodies.push(Posed { body, position, now, color, inward: None, selected, hovered });
         }
         let map = bounds::map_bounds(input.scene);
         let walls = Walls::new(map, &bodies);
-        Self { input, camera: input.camera, palette, bodies, map, walls }
+        for posed in &mut bodies {
+            posed.inward = walls.inward(posed.body, posed.position);
+            if posed.inward.is_some() && posed.body.color.is_none() {
+                posed.color = palette.wall;
+            }
+        }
+        Self { input, camera: input.camera, palette, bodies, map }
     }
 
     /// Metres per point at `place`.
@@ -105,7 +115,8 @@ impl<'a> Stage<'a> {
         }
     }
 
+    /// Whether this body is a wall in front of the scene.
     pub fn is_see_through(&self, posed: &Posed<'_>) -> bool {
-        self.walls.is_see_through(posed, &self.camera)
+        posed.inward.is_some_and(|inward| is_between(inward, posed.position, &self.camera))
     }
 }

@@ -7,6 +7,7 @@ mod grid;
 pub(super) mod highlight;
 mod labels;
 mod map_box;
+mod scaled_arrows;
 mod states;
 mod tiles;
 mod trails;
@@ -94,7 +95,7 @@ pub const OVERLAYS: &[Overlay] = &[
     Overlay {
         id: "states",
         label: "Rest and slide",
-        help: "A square on each body at rest, a double line on each that slides.",
+        help: "A square on each body at rest, a ring on each that slides.",
         default_on: true,
         add: states::add,
     },
