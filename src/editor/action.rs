@@ -1,0 +1,46 @@
+//! What panels send up: commands, and actions that carry data. [`super::Session::perform`] carries them out.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use super::{Answer, Command, Gesture, Place};
+use crate::record::EventRow;
+use crate::scene::{Edit, NodeKey};
+
+#[derive(Clone, Debug)]
+pub enum Action {
+    Command(Command),
+    /// Edits of the same gesture in a row are one undo point and reach the simulation when it ends.
+    Edit {
+        edit: Edit,
+        gesture: Option<Gesture>,
+    },
+    /// The drag was dropped, the text field left.
+    EndGesture,
+    /// Escape during a drag: the document is again as it was before.
+    AbandonGesture,
+
+    Select(Vec<NodeKey>),
+    AddToSelection(Vec<NodeKey>),
+    ToggleSelected(NodeKey),
+    SelectPlace(Place),
+    /// Shows the place of an event in the views.
+    ShowEvent(Option<Arc<EventRow>>),
+
+    /// Δt as typed.
+    SetDt(String),
+    /// Multiple of the scene's time speed.
+    SetSpeed(f64),
+
+    /// A file was chosen, dropped on the window or named on the command line.
+    OpenPath(PathBuf),
+    /// The answer to [`super::Request::ChooseSavePath`].
+    SaveTo(PathBuf),
+    /// A file dialog was closed without an answer.
+    DialogCancelled,
+    Answer(Answer),
+    /// Text from the clipboard.
+    Paste(String),
+    /// The window got the keyboard back: other programs may have changed the file.
+    LookAtDisk,
+}

@@ -1,0 +1,260 @@
+//! The one table of commands. It feeds menus, tool bar, shortcuts, palette, help sheet and tests.
+
+use super::Session;
+use super::command::{Axis, Command, CommandInfo, Key, Menu, Shortcut};
+use crate::scene::NumberStyle;
+
+/// All commands, in the order in which menus list them. Samples, recent files and overlays have tables
+/// of their own and reach the menus through [`Command::OpenSample`] and the like.
+pub const COMMANDS: &[CommandInfo] = &[
+    row(Menu::File, 0, "new", "New", "Starts an empty scene that writes numbers as 9.8")
+        .runs(Command::New(NumberStyle::Point))
+        .icon('🗋')
+        .keys(&[Shortcut::ctrl('N')]),
+    row(Menu::File, 0, "new_comma", "New with decimal comma", "Starts an empty scene for the old tools: 9,8")
+        .runs(Command::New(NumberStyle::Comma)),
+    row(Menu::File, 0, "open", "Open…", "Opens a scene file")
+        .runs(Command::Open)
+        .icon('📂')
+        .keys(&[Shortcut::ctrl('O')]),
+    row(Menu::File, 0, "reload", "Reload", "Reads the file again from the disk")
+        .runs(Command::Reload)
+        .when(Session::can_reload),
+    row(Menu::File, 1, "save", "Save", "Writes the scene to its file; what you did not edit keeps its bytes")
+        .runs(Command::Save)
+        .icon('💾')
+        .keys(&[Shortcut::ctrl('S')])
+        .when(Session::can_save),
+    row(Menu::File, 1, "save_as", "Save as…", "Writes the scene to another file")
+        .runs(Command::SaveAs)
+        .keys(&[Shortcut::ctrl_shift('S')]),
+    row(Menu::File, 2, "quit", "Quit", "Leaves the application; asks first when something is not saved")
+        .runs(Command::Quit)
+        .keys(&[Shortcut::ctrl('Q')]),
+    //
+    row(Menu::Edit, 0, "undo", "Undo", "Takes the last edit of the scene back")
+        .runs(Command::Undo)
+        .icon('↩')
+        .keys(&[Shortcut::ctrl('Z')])
+        .when(Session::can_undo),
+    row(Menu::Edit, 0, "redo", "Redo", "Does the edit again that was taken back")
+        .runs(Command::Redo)
+        .icon('↪')
+        .keys(&[Shortcut::ctrl('Y'), Shortcut::ctrl_shift('Z')])
+        .when(Session::can_redo),
+    row(Menu::Edit, 1, "cut", "Cut", "Copies the selection as XML and deletes it")
+        .runs(Command::Cut)
+        .keys(&[Shortcut::ctrl('X')])
+        .when(Session::has_selection),
+    row(Menu::Edit, 1, "copy", "Copy", "Copies the selected bodies and forces as XML")
+        .runs(Command::Copy)
+        .keys(&[Shortcut::ctrl('C')])
+        .when(Session::has_selection),
+    row(Menu::Edit, 1, "paste", "Paste", "Adds the bodies and forces of a scene on the clipboard")
+        .runs(Command::Paste)
+        .keys(&[Shortcut::ctrl('V')])
+        .when(Session::has_scene),
+    row(Menu::Edit, 1, "duplicate", "Duplicate", "Adds a copy of the selection beside it")
+        .runs(Command::Duplicate)
+        .icon('⎘')
+        .keys(&[Shortcut::ctrl('D')])
+        .when(Session::has_selection),
+    row(Menu::Edit, 1, "delete", "Delete", "Removes the selected bodies and forces")
+        .runs(Command::Delete)
+        .icon('🗑')
+        .keys(&[Shortcut::plain(Key::Delete)])
+        .when(Session::has_selection),
+    row(Menu::Edit, 2, "select_all", "Select all", "Selects all visible bodies and forces")
+        .runs(Command::SelectAll)
+        .keys(&[Shortcut::ctrl('A')])
+        .when(Session::has_scene),
+    row(Menu::Edit, 2, "select_none", "Select none", "Clears the selection")
+        .runs(Command::SelectNone)
+        .keys(&[Shortcut::plain(Key::Escape)]),
+    row(Menu::Edit, 3, "hide", "Hide", "Keeps the selection out of the views; it still takes part in the simulation")
+        .runs(Command::Hide)
+        .keys(&[Shortcut::plain(Key::Char('H'))])
+        .when(Session::has_selection),
+    row(Menu::Edit, 3, "show_all", "Show all", "Shows everything that was hidden")
+        .runs(Command::ShowAll)
+        .keys(&[Shortcut::shift(Key::Char('H'))])
+        .when(Session::has_hidden),
+    row(Menu::Edit, 3, "lock", "Lock", "Protects the selection from being moved or deleted")
+        .runs(Command::Lock)
+        .when(Session::has_selection),
+    row(Menu::Edit, 3, "unlock_all", "Unlock all", "Lets everything be moved and deleted again")
+        .runs(Command::UnlockAll)
+        .when(Session::has_locked),
+    row(Menu::Edit, 4, "make_ids_unique", "Make IDs unique", "Gives a fresh UserID to all that repeat one")
+        .runs(Command::MakeIdsUnique)
+        .when(Session::has_repeated_ids),
+    row(
+        Menu::Edit,
+        4,
+        "take_state_as_start",
+        "Take current state as start",
+        "Writes the positions and velocities of this moment into the scene, which then starts from them",
+    )
+    .runs(Command::TakeStateAsStart)
+    .when(Session::can_take_state),
+    //
+    row(Menu::Add, 0, "add_sphere_dynamic", "Dynamic sphere", "Adds a sphere that forces and collisions move")
+        .runs(Command::AddSphereDynamic)
+        .icon('●')
+        .when(Session::has_scene),
+    row(Menu::Add, 0, "add_sphere_static", "Static sphere", "Adds a sphere that never moves")
+        .runs(Command::AddSphereStatic)
+        .icon('○')
+        .when(Session::has_scene),
+    row(Menu::Add, 0, "add_plane", "Static plane", "Adds a bounded plane that never moves")
+        .runs(Command::AddPlane)
+        .icon('▱')
+        .when(Session::has_scene),
+    row(Menu::Add, 1, "add_gravity_plane", "Uniform gravity", "Adds the same acceleration for all dynamic bodies")
+        .runs(Command::AddGravityPlane)
+        .icon('⬇')
+        .when(Session::has_scene),
+    row(Menu::Add, 1, "add_gravity_point", "Point gravity", "Adds a point that attracts, or repels when negative")
+        .runs(Command::AddGravityPoint)
+        .icon('◎')
+        .when(Session::has_scene),
+    row(Menu::Add, 1, "add_drag", "Air drag", "Adds resistance against motion; makes the file Version 1.1")
+        .runs(Command::AddDrag)
+        .icon('💨')
+        .when(Session::has_scene),
+    //
+    row(Menu::Simulation, 0, "reset", "Reset", "Goes back to the start of the scene as it is edited now")
+        .runs(Command::Reset)
+        .icon('⏮')
+        .keys(&[Shortcut::plain(Key::Char('R'))])
+        .when(Session::can_reset),
+    row(Menu::Simulation, 0, "event_back", "Event back", "Goes back to the event before")
+        .runs(Command::EventBack)
+        .icon('⏪')
+        .keys(&[Shortcut::plain(Key::Char('B'))])
+        .when(Session::can_step_back),
+    row(Menu::Simulation, 0, "step_back", "Step back", "Goes back by one Δt")
+        .runs(Command::StepBack)
+        .icon('⬅')
+        .keys(&[Shortcut::plain(Key::Char(','))])
+        .when(Session::can_step_back),
+    row(Menu::Simulation, 0, "play_pause", "Play or pause", "Runs Δt after Δt, or stops after the current event")
+        .runs(Command::PlayPause)
+        .icon('▶')
+        .keys(&[Shortcut::plain(Key::Space)])
+        .when(Session::can_run),
+    row(Menu::Simulation, 0, "step_forward", "Step forward", "Goes on by one Δt")
+        .runs(Command::StepForward)
+        .icon('➡')
+        .keys(&[Shortcut::plain(Key::Char('.'))])
+        .when(Session::can_run),
+    row(Menu::Simulation, 0, "next_event", "Next event", "Goes on to the next event, also inside a Δt")
+        .runs(Command::NextEvent)
+        .icon('⏩')
+        .keys(&[Shortcut::plain(Key::Char('N'))])
+        .when(Session::can_run),
+    row(Menu::Simulation, 0, "finish_step", "Finish this Δt", "Goes on to the end of the Δt that an event opened")
+        .runs(Command::FinishStep)
+        .icon('⏭')
+        .keys(&[Shortcut::plain(Key::End)])
+        .when(Session::can_finish_step),
+    row(Menu::Simulation, 1, "step_forward_five", "Five steps forward", "Goes on by five Δt")
+        .runs(Command::StepForwardFive)
+        .keys(&[Shortcut::shift(Key::Char('.'))])
+        .when(Session::can_run),
+    row(Menu::Simulation, 1, "step_back_five", "Five steps back", "Goes back by five Δt")
+        .runs(Command::StepBackFive)
+        .keys(&[Shortcut::shift(Key::Char(','))])
+        .when(Session::can_step_back),
+    row(Menu::Simulation, 2, "faster", "Faster", "Doubles the speed of playing")
+        .runs(Command::Faster)
+        .keys(&[Shortcut::plain(Key::Char('+'))]),
+    row(Menu::Simulation, 2, "slower", "Slower", "Halves the speed of playing")
+        .runs(Command::Slower)
+        .keys(&[Shortcut::plain(Key::Char('-'))]),
+    //
+    row(Menu::View, 0, "frame_selection", "Frame selection", "Brings the selection into the middle of the view")
+        .runs(Command::FrameSelection)
+        .icon('⌖')
+        .keys(&[Shortcut::plain(Key::Char('F'))])
+        .when(Session::has_selection),
+    row(Menu::View, 0, "frame_all", "Frame all", "Brings the whole map into the view")
+        .runs(Command::FrameAll)
+        .icon('⛶')
+        .keys(&[Shortcut::plain(Key::Char('A'))]),
+    row(Menu::View, 1, "view_perspective", "Perspective", "Looks at the scene with perspective")
+        .runs(Command::ViewAlong(Axis::Perspective))
+        .keys(&[Shortcut::plain(Key::Char('1')), Shortcut::plain(Key::Numpad(5))]),
+    row(Menu::View, 1, "view_top", "Top", "Looks down on the scene, against y")
+        .runs(Command::ViewAlong(Axis::Top))
+        .keys(&[Shortcut::plain(Key::Char('2')), Shortcut::plain(Key::Numpad(7))]),
+    row(Menu::View, 1, "view_front", "Front", "Looks at the scene from the front, against z")
+        .runs(Command::ViewAlong(Axis::Front))
+        .keys(&[Shortcut::plain(Key::Char('3')), Shortcut::plain(Key::Numpad(1))]),
+    row(Menu::View, 1, "view_right", "Right", "Looks at the scene from the right, against x")
+        .runs(Command::ViewAlong(Axis::Right))
+        .keys(&[Shortcut::plain(Key::Char('4')), Shortcut::plain(Key::Numpad(3))]),
+    row(Menu::View, 1, "toggle_projection", "Parallel or perspective", "Switches the projection of the view")
+        .runs(Command::ToggleProjection)
+        .keys(&[Shortcut::plain(Key::Char('P'))]),
+    row(Menu::View, 2, "maximize_view", "One view or four", "Fills the middle with the active view, or shows all four")
+        .runs(Command::MaximizeView)
+        .icon('⊞')
+        .keys(&[Shortcut::plain(Key::Char('M'))]),
+    //
+    row(Menu::Help, 0, "help", "Help", "Explains the window in one page")
+        .runs(Command::Help)
+        .icon('❓')
+        .keys(&[Shortcut::plain(Key::Function(1))]),
+    row(Menu::Help, 0, "shortcuts", "Keys and gestures", "Lists all keys and mouse gestures")
+        .runs(Command::Shortcuts)
+        .keys(&[Shortcut::plain(Key::Char('?'))]),
+    row(Menu::Help, 0, "palette", "Command palette…", "Finds a command by its name")
+        .runs(Command::Palette)
+        .icon('🔍')
+        .keys(&[Shortcut::ctrl('P')]),
+    row(Menu::Help, 1, "about", "About PolyScene", "Tells the version, the licence and where to report a fault")
+        .runs(Command::About),
+];
+
+const fn row(
+    menu: Menu,
+    group: u8,
+    id: &'static str,
+    label: &'static str,
+    help: &'static str,
+) -> CommandInfo {
+    CommandInfo {
+        command: Command::About,
+        id,
+        label,
+        menu,
+        group,
+        shortcuts: &[],
+        icon: None,
+        help,
+        enabled: |_| Ok(()),
+    }
+}
+
+impl CommandInfo {
+    const fn runs(mut self, command: Command) -> Self {
+        self.command = command;
+        self
+    }
+
+    const fn icon(mut self, icon: char) -> Self {
+        self.icon = Some(icon);
+        self
+    }
+
+    const fn keys(mut self, shortcuts: &'static [Shortcut]) -> Self {
+        self.shortcuts = shortcuts;
+        self
+    }
+
+    const fn when(mut self, enabled: fn(&Session) -> Result<(), &'static str>) -> Self {
+        self.enabled = enabled;
+        self
+    }
+}

@@ -1,0 +1,231 @@
+//! Commands: what a user can ask for by menu, tool bar, key or palette, as plain data.
+
+use std::fmt;
+
+use super::Session;
+use super::catalog::COMMANDS;
+use crate::scene::NumberStyle;
+
+/// Every user action that needs no further data.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Command {
+    New(NumberStyle),
+    Open,
+    OpenSample(usize),
+    OpenRecent(usize),
+    Save,
+    SaveAs,
+    Reload,
+    Quit,
+
+    Undo,
+    Redo,
+    Cut,
+    Copy,
+    Paste,
+    Duplicate,
+    Delete,
+    SelectAll,
+    SelectNone,
+    Hide,
+    ShowAll,
+    Lock,
+    UnlockAll,
+    MakeIdsUnique,
+    TakeStateAsStart,
+
+    AddSphereDynamic,
+    AddSphereStatic,
+    AddPlane,
+    AddGravityPlane,
+    AddGravityPoint,
+    AddDrag,
+
+    Reset,
+    PlayPause,
+    StepForward,
+    StepForwardFive,
+    StepBack,
+    StepBackFive,
+    NextEvent,
+    EventBack,
+    FinishStep,
+    Faster,
+    Slower,
+
+    FrameSelection,
+    FrameAll,
+    ViewAlong(Axis),
+    MaximizeView,
+    ToggleProjection,
+    /// The n-th overlay of the active view.
+    ToggleOverlay(usize),
+
+    Help,
+    Shortcuts,
+    Palette,
+    About,
+}
+
+/// Where a view looks from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axis {
+    Perspective,
+    Top,
+    Front,
+    Right,
+}
+
+/// What became of a command.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    Done,
+    /// The command is about views or the window: the window carries it out.
+    NotMine,
+    /// Why it could not be done; also given as a notice.
+    Refused(String),
+}
+
+/// The menu that lists a command.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Menu {
+    File,
+    Edit,
+    Add,
+    Simulation,
+    View,
+    Help,
+}
+
+impl Menu {
+    pub const ALL: [Self; 6] = [Self::File, Self::Edit, Self::Add, Self::Simulation, Self::View, Self::Help];
+
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::File => "File",
+            Self::Edit => "Edit",
+            Self::Add => "Add",
+            Self::Simulation => "Simulation",
+            Self::View => "View",
+            Self::Help => "Help",
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Key {
+    /// A letter (upper case), digit or punctuation mark.
+    Char(char),
+    Space,
+    Delete,
+    Escape,
+    End,
+    Function(u8),
+    Numpad(u8),
+}
+
+/// A key with its modifiers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shortcut {
+    pub key: Key,
+    pub ctrl: bool,
+    pub shift: bool,
+}
+
+impl Shortcut {
+    pub const fn plain(key: Key) -> Self {
+        Self { key, ctrl: false, shift: false }
+    }
+
+    pub const fn shift(key: Key) -> Self {
+        Self { key, ctrl: false, shift: true }
+    }
+
+    pub const fn ctrl(letter: char) -> Self {
+        Self { key: Key::Char(letter), ctrl: true, shift: false }
+    }
+
+    pub const fn ctrl_shift(letter: char) -> Self {
+        Self { key: Key::Char(letter), ctrl: true, shift: true }
+    }
+
+    /// Whether it is meant for the application even while a text field has the keyboard.
+    pub fn works_while_typing(self) -> bool {
+        match self.key {
+            Key::Function(_) => true,
+            // these belong to the text itself
+            Key::Char('A' | 'C' | 'V' | 'X' | 'Y' | 'Z') => false,
+            Key::Char(_) => self.ctrl,
+            _ => false,
+        }
+    }
+}
+
+impl fmt::Display for Shortcut {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.ctrl {
+            f.write_str("Ctrl+")?;
+        }
+        if self.shift {
+            f.write_str("Shift+")?;
+        }
+        match self.key {
+            Key::Char(c) => write!(f, "{c}"),
+            Key::Space => f.write_str("Space"),
+            Key::Delete => f.write_str("Delete"),
+            Key::Escape => f.write_str("Esc"),
+            Key::End => f.write_str("End"),
+            Key::Function(n) => write!(f, "F{n}"),
+            Key::Numpad(n) => write!(f, "Num {n}"),
+        }
+    }
+}
+
+/// One row of [`COMMANDS`].
+#[derive(Clone, Copy)]
+pub struct CommandInfo {
+    pub command: Command,
+    /// Stable name for tests and logs.
+    pub id: &'static str,
+    /// Sentence case; ends in `…` when a dialog follows.
+    pub label: &'static str,
+    pub menu: Menu,
+    /// Rows of the same menu with another group are parted by a line.
+    pub group: u8,
+    /// The first is the one shown.
+    pub shortcuts: &'static [Shortcut],
+    pub icon: Option<char>,
+    /// One sentence.
+    pub help: &'static str,
+    /// `Err` says why the command can't be used now.
+    pub enabled: fn(&Session) -> Result<(), &'static str>,
+}
+
+impl CommandInfo {
+    /// What to write on a button or menu entry now: `Undo` also says what.
+    pub fn label_now(&self, session: &Session) -> String {
+        let subject = match self.command {
+            Command::Undo => session.undo_label(),
+            Command::Redo => session.redo_label(),
+            _ => None,
+        };
+        subject.map_or_else(|| self.label.to_owned(), |subject| format!("{}: {subject}", self.label))
+    }
+
+    /// Help, why it is disabled now, and the shortcut, for a tooltip.
+    pub fn tooltip(&self, session: &Session) -> String {
+        let mut text = format!("{}. {}", self.label.trim_end_matches('…'), self.help);
+        if let Some(shortcut) = self.shortcuts.first() {
+            text.push_str(&format!(" ({shortcut})"));
+        }
+        if let Err(reason) = (self.enabled)(session) {
+            text.push_str(&format!("\nNot now: {reason}."));
+        }
+        text
+    }
+}
+
+/// The row of a command; `None` for those that other tables list (samples, recent files, overlays).
+pub fn info(command: Command) -> Option<&'static CommandInfo> {
+    COMMANDS.iter().find(|row| row.command == command)
+}

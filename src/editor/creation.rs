@@ -1,0 +1,144 @@
+//! New bodies and forces: sensible sizes for the map at hand, in a place that is free.
+
+use glam::DVec3;
+
+use super::edits::no_scene;
+use super::{Command, Outcome, Session};
+use crate::scene::{Body, Edit, Force, ForceKind, Motion, NodeKey, Scene, Shape, rotation_matrix};
+
+/// Density of air, kg/m³, at 15 °C and sea level rounded as the predecessor had it.
+const AIR_DENSITY: f64 = 1.276;
+
+/// m/s².
+const EARTH_GRAVITY: f64 = 9.81;
+
+/// How many places around the middle of the map are tried for a new sphere.
+const PLACES_TRIED: u32 = 400;
+
+impl Session {
+    /// Adds what an `Add…` command names, and selects it.
+    pub(super) fn add(&mut self, command: Command) -> Outcome {
+        let Some(scene) = self.scene() else { return no_scene() };
+        let middle = scene.map.size / 2.0;
+        let edit = match command {
+            Command::AddSphereDynamic => {
+                add_body(sphere(scene, Motion::Dynamic { mass: 1.0, velocity: DVec3::ZERO }))
+            }
+            Command::AddSphereStatic => add_body(sphere(scene, Motion::Static)),
+            Command::AddPlane => add_body(plane(scene)),
+            Command::AddGravityPlane => add_force(
+                scene,
+                ForceKind::GravityPlane { position: middle, acceleration: DVec3::new(0.0, -EARTH_GRAVITY, 0.0) },
+            ),
+            Command::AddGravityPoint => {
+                add_force(scene, ForceKind::GravityPoint { position: middle, intensity: 8.0 })
+            }
+            Command::AddDrag => add_force(scene, ForceKind::Drag { density: AIR_DENSITY }),
+            _ => return Outcome::NotMine,
+        };
+        self.edit(&edit, None)
+    }
+}
+
+fn add_body(body: Body) -> Edit {
+    Edit::AddBody(Box::new(body))
+}
+
+fn add_force(scene: &Scene, kind: ForceKind) -> Edit {
+    let id = scene.forces.iter().map(|force| force.id).max().unwrap_or(0).saturating_add(1);
+    Edit::AddForce(Box::new(Force {
+        key: NodeKey::default(),
+        id,
+        label: String::new(),
+        name: None,
+        hidden: false,
+        locked: false,
+        kind,
+    }))
+}
+
+fn sphere(scene: &Scene, motion: Motion) -> Body {
+    // 0.5 m in a map of 10 m
+    let radius = round_to_one_digit(scene.map.size.min_element() / 20.0);
+    let position = free_place(scene, radius);
+    Body { motion, position, ..blank(scene, Shape::Sphere { radius }) }
+}
+
+/// A level plate in the middle of the map, seen from above.
+fn plane(scene: &Scene) -> Body {
+    let half = round_to_one_digit(scene.map.size.min_element() / 10.0);
+    Body {
+        position: scene.map.size / 2.0,
+        rotation: DVec3::new(-std::f64::consts::FRAC_PI_2, 0.0, 0.0),
+        ..blank(scene, Shape::Plane { half_x: half, half_y: half })
+    }
+}
+
+fn blank(scene: &Scene, shape: Shape) -> Body {
+    Body {
+        key: NodeKey::default(),
+        id: scene.bodies.iter().map(|body| body.id).max().unwrap_or(0).saturating_add(1),
+        label: String::new(),
+        name: None,
+        color: None,
+        hidden: false,
+        locked: false,
+        position: DVec3::ZERO,
+        rotation: DVec3::ZERO,
+        bounce: 1.0,
+        material: None,
+        motion: Motion::Static,
+        shape,
+    }
+}
+
+/// The first of some places around the middle of the map where a sphere touches nothing; the middle when
+/// all are taken.
+fn free_place(scene: &Scene, radius: f64) -> DVec3 {
+    let middle = scene.map.size / 2.0;
+    let reach = (scene.map.size / 2.0 - DVec3::splat(radius)).max(DVec3::ZERO);
+    let spiral = (0..PLACES_TRIED).map(|k| {
+        // a sunflower spiral in the level plane, then higher and higher: even cover without a pattern
+        let share = f64::from(k) / f64::from(PLACES_TRIED);
+        let angle = f64::from(k) * 2.399_963_229_728_653;
+        let out = share.sqrt();
+        middle + reach * DVec3::new(out * angle.cos(), (f64::from(k % 9) - 4.0) / 4.0 * share, out * angle.sin())
+    });
+    let rounded = spiral.map(|place| (place * 1e3).round() / 1e3);
+    rounded.into_iter().find(|place| scene.bodies.iter().all(|body| gap(body, *place) > radius)).unwrap_or(middle)
+}
+
+/// Distance from a point to a body's surface, m; negative inside a sphere.
+fn gap(body: &Body, point: DVec3) -> f64 {
+    match &body.shape {
+        Shape::Sphere { radius } => (point - body.position).length() - radius,
+        Shape::Plane { half_x, half_y } => {
+            let local = rotation_matrix(body.rotation).transpose() * (point - body.position);
+            let beyond = DVec3::new(local.x.abs() - half_x, local.y.abs() - half_y, 0.0).max(DVec3::ZERO);
+            DVec3::new(beyond.x, beyond.y, local.z).length()
+        }
+        Shape::Unbuilt { .. } => f64::INFINITY,
+    }
+}
+
+/// Where copies go: beside their originals along x, clear of them.
+pub(super) fn offset_of_copy(scene: &Scene, keys: &[NodeKey]) -> DVec3 {
+    let keys: std::collections::BTreeSet<NodeKey> = keys.iter().copied().collect();
+    let widest = scene
+        .bodies
+        .iter()
+        .filter(|body| keys.contains(&body.key))
+        .map(|body| match body.shape {
+            Shape::Sphere { radius } => 2.0 * radius,
+            _ => 0.0,
+        })
+        .fold(0.0, f64::max);
+    let step = if widest > 0.0 { widest * 1.1 } else { scene.map.size.min_element() / 20.0 };
+    DVec3::new(step, 0.0, 0.0)
+}
+
+/// 0.5 for 0.47, so that new things have sizes a person would have typed.
+fn round_to_one_digit(value: f64) -> f64 {
+    let digit = 10f64.powf(value.log10().floor());
+    if digit > 0.0 && digit.is_finite() { (value / digit).round() * digit } else { value }
+}

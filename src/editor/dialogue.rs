@@ -1,0 +1,114 @@
+//! What the session asks: questions to the user before something could be lost, and requests to the
+//! window. Plain data, so that the guard of unsaved changes is tested without widgets.
+
+use std::path::PathBuf;
+
+use super::Recovered;
+use crate::scene::NumberStyle;
+
+/// What replaces or closes the document once nothing can be lost.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Intent {
+    New(NumberStyle),
+    OpenPath(PathBuf),
+    OpenSample(usize),
+    Reload,
+    Restore(Recovered),
+    Quit,
+}
+
+/// A question that blocks until it is answered.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Question {
+    /// The document has unsaved changes and `then` would lose them.
+    UnsavedChanges { title: String, then: Intent },
+    /// The file changed since it was read or written, and saving would lose that.
+    ChangedOnDisk { path: PathBuf, then: Option<Intent> },
+    /// An earlier run ended with unsaved work.
+    Recover(Recovered),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Answer {
+    Save,
+    SaveAs,
+    Overwrite,
+    Discard,
+    Restore,
+    Later,
+    Cancel,
+}
+
+/// What only the window can do.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Request {
+    /// Answered by [`super::Action::OpenPath`] or [`super::Action::DialogCancelled`].
+    ChooseOpenPath,
+    /// Answered by [`super::Action::SaveTo`] or [`super::Action::DialogCancelled`].
+    ChooseSavePath {
+        directory: Option<PathBuf>,
+        file_name: String,
+    },
+    SetClipboard(String),
+    /// Answered by [`super::Action::Paste`].
+    ReadClipboard,
+    Quit,
+}
+
+impl Question {
+    pub fn title(&self) -> &'static str {
+        match self {
+            Self::UnsavedChanges { .. } => "Unsaved changes",
+            Self::ChangedOnDisk { .. } => "File changed on disk",
+            Self::Recover(_) => "Recover unsaved work",
+        }
+    }
+
+    pub fn text(&self) -> String {
+        match self {
+            Self::UnsavedChanges { title, .. } => format!("“{title}” has changes that are not saved."),
+            Self::ChangedOnDisk { path, .. } => format!(
+                "Another program changed or removed {} after it was opened here. Saving would replace what \
+                 is there now.",
+                path.display()
+            ),
+            Self::Recover(found) => format!(
+                "The last session ended without saving “{}” ({}). Restoring opens that work; the file itself \
+                 is not touched until you save.",
+                found.title(),
+                found.age_text()
+            ),
+        }
+    }
+
+    /// The safe answer comes first.
+    pub fn answers(&self) -> &'static [Answer] {
+        match self {
+            Self::UnsavedChanges { .. } => &[Answer::Save, Answer::Discard, Answer::Cancel],
+            Self::ChangedOnDisk { .. } => &[Answer::SaveAs, Answer::Overwrite, Answer::Cancel],
+            Self::Recover(_) => &[Answer::Restore, Answer::Later, Answer::Discard],
+        }
+    }
+
+    /// What Escape and closing the dialog mean.
+    pub fn dismissal(&self) -> Answer {
+        match self {
+            Self::UnsavedChanges { .. } | Self::ChangedOnDisk { .. } => Answer::Cancel,
+            Self::Recover(_) => Answer::Later,
+        }
+    }
+}
+
+impl Answer {
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Save => "Save",
+            Self::SaveAs => "Save as…",
+            Self::Overwrite => "Overwrite",
+            Self::Discard => "Discard",
+            Self::Restore => "Restore",
+            Self::Later => "Ask later",
+            Self::Cancel => "Cancel",
+        }
+    }
+}

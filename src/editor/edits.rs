@@ -1,0 +1,211 @@
+//! Edits of the document: each ends in one undo point and reaches the simulation.
+
+use std::collections::BTreeSet;
+
+use super::label::describe;
+use super::{Gesture, Notice, Outcome, Session};
+use crate::scene::{BodyChange, Edit, ForceChange, NodeKey, Scene};
+
+impl Session {
+    /// Applies an edit. Edits of one gesture in a row make one undo point; an edit that changes nothing
+    /// makes none.
+    pub(super) fn edit(&mut self, edit: &Edit, gesture: Option<Gesture>) -> Outcome {
+        self.edit_as(edit, gesture, None)
+    }
+
+    /// As [`Self::edit`], under another name in the Edit menu.
+    pub(super) fn edit_as(&mut self, edit: &Edit, gesture: Option<Gesture>, label: Option<String>) -> Outcome {
+        if self.open_gesture() != gesture {
+            self.settle();
+        }
+        let edited = match self.document().apply(edit) {
+            Ok(edited) => edited,
+            Err(err) => return Outcome::Refused(err.to_string()),
+        };
+        if self.scene().is_some() && self.scene() == edited.document.scene() {
+            return Outcome::Done;
+        }
+        let label = label.unwrap_or_else(|| describe(edit, self.scene()));
+        let time_speed = self.scene().map(|scene| scene.time_speed);
+        self.history.push(edited.document, label, gesture);
+        if !edited.added.is_empty() {
+            self.selection.set(&edited.added);
+        }
+        self.document_changed();
+        if self.scene().map(|scene| scene.time_speed) != time_speed {
+            self.play_on();
+        }
+        Outcome::Done
+    }
+
+    pub(super) fn undo(&mut self) {
+        self.settle();
+        if self.history.undo() {
+            self.document_changed();
+        }
+    }
+
+    pub(super) fn redo(&mut self) {
+        self.settle();
+        if self.history.redo() {
+            self.document_changed();
+        }
+    }
+
+    pub(super) fn abandon_gesture(&mut self) {
+        if self.history.abandon_gesture() {
+            self.document_changed();
+        }
+    }
+
+    pub(super) fn duplicate(&mut self) -> Outcome {
+        let Some(scene) = self.scene() else { return no_scene() };
+        let keys = self.selection.keys().to_vec();
+        let offset = super::creation::offset_of_copy(scene, &keys);
+        self.edit(&Edit::Duplicate { keys, offset }, None)
+    }
+
+    /// Deletes the selection; locked items stay and are told.
+    pub(super) fn delete(&mut self) -> Outcome {
+        let Some(scene) = self.scene() else { return no_scene() };
+        let protected = locked_keys(scene);
+        let (locked, keys): (Vec<NodeKey>, Vec<NodeKey>) =
+            self.selection.keys().iter().partition(|key| protected.contains(key));
+        if keys.is_empty() {
+            return Outcome::Refused("Locked: unlock it first".to_owned());
+        }
+        if !locked.is_empty() {
+            self.notices.push(Notice::warning(format!("{} locked objects were left", locked.len())));
+        }
+        self.edit(&Edit::Delete { keys }, None)
+    }
+
+    pub(super) fn select_all(&mut self) {
+        let Some(scene) = self.scene() else { return };
+        let bodies = scene.bodies.iter().filter(|body| !body.hidden).map(|body| body.key);
+        let forces = scene.forces.iter().filter(|force| !force.hidden).map(|force| force.key);
+        let keys: Vec<NodeKey> = forces.chain(bodies).collect();
+        self.selection.set(&keys);
+    }
+
+    pub(super) fn hide_selection(&mut self) -> Outcome {
+        let keys = self.selection.keys().to_vec();
+        let outcome = self.mark(&keys, BodyChange::Hidden(true), ForceChange::Hidden(true));
+        self.selection.clear();
+        outcome
+    }
+
+    pub(super) fn show_all(&mut self) -> Outcome {
+        let keys = self.keys_where(|body| body.hidden, |force| force.hidden);
+        self.mark(&keys, BodyChange::Hidden(false), ForceChange::Hidden(false))
+    }
+
+    pub(super) fn lock_selection(&mut self) -> Outcome {
+        let keys = self.selection.keys().to_vec();
+        self.mark(&keys, BodyChange::Locked(true), ForceChange::Locked(true))
+    }
+
+    pub(super) fn unlock_all(&mut self) -> Outcome {
+        let keys = self.keys_where(|body| body.locked, |force| force.locked);
+        self.mark(&keys, BodyChange::Locked(false), ForceChange::Locked(false))
+    }
+
+    /// Gives the bodies the one change and the forces the other.
+    fn mark(&mut self, keys: &[NodeKey], of_body: BodyChange, of_force: ForceChange) -> Outcome {
+        let Some(scene) = self.scene() else { return no_scene() };
+        let bodies = body_keys(scene);
+        let edits = keys.iter().map(|key| {
+            if bodies.contains(key) {
+                Edit::Body { key: *key, change: of_body.clone() }
+            } else {
+                Edit::Force { key: *key, change: of_force.clone() }
+            }
+        });
+        let edit = Edit::All(edits.collect());
+        self.edit(&edit, None)
+    }
+
+    fn keys_where(
+        &self,
+        of_body: fn(&crate::scene::Body) -> bool,
+        of_force: fn(&crate::scene::Force) -> bool,
+    ) -> Vec<NodeKey> {
+        let Some(scene) = self.scene() else { return Vec::new() };
+        let bodies = scene.bodies.iter().filter(|body| of_body(body)).map(|body| body.key);
+        let forces = scene.forces.iter().filter(|force| of_force(force)).map(|force| force.key);
+        forces.chain(bodies).collect()
+    }
+
+    /// Writes the poses and velocities of the frame into the document, as one undo point, and starts
+    /// from them.
+    pub(super) fn take_state_as_start(&mut self) -> Outcome {
+        self.pause();
+        let Some(scene) = self.scene() else { return no_scene() };
+        let there = body_keys(scene);
+        let mut edits = Vec::new();
+        for now in self.frame.bodies.iter().filter(|now| there.contains(&now.key)) {
+            edits.push(Edit::Body { key: now.key, change: BodyChange::Position(now.position) });
+            edits.push(Edit::Body { key: now.key, change: BodyChange::Velocity(now.velocity) });
+        }
+        let label = format!("Take state at {:.6} s as start", self.frame.time);
+        let outcome = self.edit_as(&Edit::All(edits), None, Some(label));
+        if outcome == Outcome::Done {
+            self.reset();
+        }
+        outcome
+    }
+
+    pub(super) fn has_scene(&self) -> Result<(), &'static str> {
+        if self.scene().is_some() { Ok(()) } else { Err("the file has errors, see Problems") }
+    }
+
+    pub(super) fn has_selection(&self) -> Result<(), &'static str> {
+        if self.selection.is_empty() { Err("nothing is selected") } else { Ok(()) }
+    }
+
+    pub(super) fn can_undo(&self) -> Result<(), &'static str> {
+        if self.undo_label().is_some() { Ok(()) } else { Err("nothing was edited yet") }
+    }
+
+    pub(super) fn can_redo(&self) -> Result<(), &'static str> {
+        if self.redo_label().is_some() { Ok(()) } else { Err("nothing was taken back") }
+    }
+
+    pub(super) fn has_hidden(&self) -> Result<(), &'static str> {
+        let none = self.keys_where(|body| body.hidden, |force| force.hidden).is_empty();
+        if none { Err("nothing is hidden") } else { Ok(()) }
+    }
+
+    pub(super) fn has_locked(&self) -> Result<(), &'static str> {
+        let none = self.keys_where(|body| body.locked, |force| force.locked).is_empty();
+        if none { Err("nothing is locked") } else { Ok(()) }
+    }
+
+    pub(super) fn has_repeated_ids(&self) -> Result<(), &'static str> {
+        // the k-th of an id is labelled `id#k`
+        let repeated = self.scene().is_some_and(|scene| {
+            scene.bodies.iter().any(|body| body.label.contains('#'))
+                || scene.forces.iter().any(|force| force.label.contains('#'))
+        });
+        if repeated { Ok(()) } else { Err("no UserID repeats") }
+    }
+
+    pub(super) fn can_take_state(&self) -> Result<(), &'static str> {
+        self.can_reset()?;
+        if self.shows_start() { Err("the simulation stands at its start") } else { Ok(()) }
+    }
+}
+
+/// Bodies and forces that must not be moved or deleted.
+pub(super) fn locked_keys(scene: &Scene) -> BTreeSet<NodeKey> {
+    let bodies = scene.bodies.iter().filter(|body| body.locked).map(|body| body.key);
+    bodies.chain(scene.forces.iter().filter(|force| force.locked).map(|force| force.key)).collect()
+}
+
+fn body_keys(scene: &Scene) -> BTreeSet<NodeKey> {
+    scene.bodies.iter().map(|body| body.key).collect()
+}
+
+pub(super) fn no_scene() -> Outcome {
+    Outcome::Refused("The file has errors that leave no scene to edit".to_owned())
+}

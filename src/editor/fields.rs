@@ -1,0 +1,297 @@
+//! The numbers that the inspector shows and edits, one row of a table each, for one object or several.
+
+use std::collections::BTreeSet;
+
+use glam::DVec3;
+
+use crate::record::BodyFrame;
+use crate::scene::{Body, BodyChange, Edit, Force, ForceChange, ForceKind, Motion, NodeKey, Scene, Shape};
+
+/// A number or vector of a `T`. A number is the x of its vector.
+pub struct Field<T: 'static, C: 'static> {
+    pub label: &'static str,
+    /// Empty where dimensionless.
+    pub unit: &'static str,
+    /// What each component is called; one empty name for a number.
+    pub axes: &'static [&'static str],
+    /// What a drag stays within; the document has the last word.
+    pub range: (f64, f64),
+    /// `None` where the object has no such number.
+    pub get: fn(&T) -> Option<DVec3>,
+    /// The change that sets it; `None` where the object has no such number.
+    pub set: fn(&T, DVec3) -> Option<C>,
+    /// What it is at the frame's time, where the simulation changes it.
+    pub now: Option<fn(&BodyFrame) -> DVec3>,
+}
+
+/// What several objects have in common.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shared {
+    /// No object has it.
+    None,
+    Same(f64),
+    Mixed {
+        smallest: f64,
+        largest: f64,
+    },
+}
+
+/// Puts the values of several objects together; objects without the number don't count.
+pub fn shared(values: impl IntoIterator<Item = Option<f64>>) -> Shared {
+    values.into_iter().flatten().fold(Shared::None, |so_far, value| match so_far {
+        Shared::None => Shared::Same(value),
+        Shared::Same(same) if same == value => so_far,
+        Shared::Same(same) => Shared::Mixed { smallest: same.min(value), largest: same.max(value) },
+        Shared::Mixed { smallest, largest } => {
+            Shared::Mixed { smallest: smallest.min(value), largest: largest.max(value) }
+        }
+    })
+}
+
+impl<T, C> Field<T, C> {
+    /// One component; `None` where the object has no such number.
+    pub fn value(&self, of: &T, axis: usize) -> Option<f64> {
+        (self.get)(of).and_then(|vector| vector.to_array().get(axis).copied())
+    }
+
+    /// The change that sets one component and leaves the others.
+    pub fn change(&self, of: &T, axis: usize, value: f64) -> Option<C> {
+        let mut components = (self.get)(of)?.to_array();
+        *components.get_mut(axis)? = value;
+        (self.set)(of, DVec3::from_array(components))
+    }
+
+    /// Such as `Position y`.
+    pub fn accessible_name(&self, axis: usize) -> String {
+        match self.axes.get(axis) {
+            Some(name) if !name.is_empty() => format!("{} {name}", self.label),
+            _ => self.label.to_owned(),
+        }
+    }
+}
+
+impl Field<Body, BodyChange> {
+    /// Sets one component of all these bodies that have it.
+    pub fn edit(&self, scene: &Scene, keys: &[NodeKey], axis: usize, value: f64) -> Edit {
+        let keys: BTreeSet<NodeKey> = keys.iter().copied().collect();
+        let chosen = scene.bodies.iter().filter(|body| keys.contains(&body.key));
+        let edits = chosen.filter_map(|body| {
+            Some(Edit::Body { key: body.key, change: self.change(body, axis, value)? })
+        });
+        Edit::All(edits.collect())
+    }
+}
+
+impl Field<Force, ForceChange> {
+    /// Sets one component of all these forces that have it.
+    pub fn edit(&self, scene: &Scene, keys: &[NodeKey], axis: usize, value: f64) -> Edit {
+        let keys: BTreeSet<NodeKey> = keys.iter().copied().collect();
+        let chosen = scene.forces.iter().filter(|force| keys.contains(&force.key));
+        let edits = chosen.filter_map(|force| {
+            Some(Edit::Force { key: force.key, change: self.change(force, axis, value)? })
+        });
+        Edit::All(edits.collect())
+    }
+}
+
+const XYZ: &[&str] = &["x", "y", "z"];
+const NUMBER: &[&str] = &[""];
+const ANY: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
+const POSITIVE: (f64, f64) = (1e-9, f64::INFINITY);
+const NOT_NEGATIVE: (f64, f64) = (0.0, f64::INFINITY);
+
+/// What bodies have, in the order of the inspector.
+pub const BODY_FIELDS: &[Field<Body, BodyChange>] = &[
+    Field {
+        label: "Position",
+        unit: "m",
+        axes: XYZ,
+        range: ANY,
+        get: |body| Some(body.position),
+        set: |_, position| Some(BodyChange::Position(position)),
+        now: Some(|frame| frame.position),
+    },
+    Field {
+        label: "Rotation",
+        unit: "rad",
+        axes: &["α", "β", "γ"],
+        range: ANY,
+        get: |body| Some(body.rotation),
+        set: |_, rotation| Some(BodyChange::Rotation(rotation)),
+        now: None,
+    },
+    Field {
+        label: "Velocity",
+        unit: "m/s",
+        axes: XYZ,
+        range: ANY,
+        get: |body| match body.motion {
+            Motion::Dynamic { velocity, .. } => Some(velocity),
+            Motion::Static => None,
+        },
+        set: |body, velocity| body.is_dynamic().then_some(BodyChange::Velocity(velocity)),
+        now: Some(|frame| frame.velocity),
+    },
+    Field {
+        label: "Mass",
+        unit: "kg",
+        axes: NUMBER,
+        range: POSITIVE,
+        get: |body| match body.motion {
+            Motion::Dynamic { mass, .. } => Some(number(mass)),
+            Motion::Static => None,
+        },
+        set: |body, mass| body.is_dynamic().then_some(BodyChange::Mass(mass.x)),
+        now: None,
+    },
+    Field {
+        label: "Bounce",
+        unit: "",
+        axes: NUMBER,
+        range: (0.0, 1.0),
+        get: |body| Some(number(body.bounce)),
+        set: |_, bounce| Some(BodyChange::Bounce(bounce.x)),
+        now: None,
+    },
+    Field {
+        label: "Radius",
+        unit: "m",
+        axes: NUMBER,
+        range: POSITIVE,
+        get: |body| match body.shape {
+            Shape::Sphere { radius } => Some(number(radius)),
+            Shape::Plane { .. } | Shape::Unbuilt { .. } => None,
+        },
+        set: |body, radius| match body.shape {
+            Shape::Sphere { .. } => Some(BodyChange::Shape(Shape::Sphere { radius: radius.x })),
+            Shape::Plane { .. } | Shape::Unbuilt { .. } => None,
+        },
+        now: None,
+    },
+    Field {
+        label: "Half side",
+        unit: "m",
+        axes: &["x", "y"],
+        range: POSITIVE,
+        get: |body| match body.shape {
+            Shape::Plane { half_x, half_y } => Some(DVec3::new(half_x, half_y, 0.0)),
+            Shape::Sphere { .. } | Shape::Unbuilt { .. } => None,
+        },
+        set: |body, half| match body.shape {
+            Shape::Plane { .. } => {
+                Some(BodyChange::Shape(Shape::Plane { half_x: half.x, half_y: half.y }))
+            }
+            Shape::Sphere { .. } | Shape::Unbuilt { .. } => None,
+        },
+        now: None,
+    },
+];
+
+/// What forces have.
+pub const FORCE_FIELDS: &[Field<Force, ForceChange>] = &[
+    Field {
+        label: "Position",
+        unit: "m",
+        axes: XYZ,
+        range: ANY,
+        get: |force| match force.kind {
+            ForceKind::GravityPoint { position, .. } | ForceKind::GravityPlane { position, .. } => Some(position),
+            ForceKind::Drag { .. } => None,
+        },
+        set: |force, position| match force.kind {
+            ForceKind::GravityPoint { intensity, .. } => kind(ForceKind::GravityPoint { position, intensity }),
+            ForceKind::GravityPlane { acceleration, .. } => {
+                kind(ForceKind::GravityPlane { position, acceleration })
+            }
+            ForceKind::Drag { .. } => None,
+        },
+        now: None,
+    },
+    Field {
+        label: "Acceleration",
+        unit: "m/s²",
+        axes: XYZ,
+        range: ANY,
+        get: |force| match force.kind {
+            ForceKind::GravityPlane { acceleration, .. } => Some(acceleration),
+            _ => None,
+        },
+        set: |force, acceleration| match force.kind {
+            ForceKind::GravityPlane { position, .. } => kind(ForceKind::GravityPlane { position, acceleration }),
+            _ => None,
+        },
+        now: None,
+    },
+    Field {
+        label: "Intensity",
+        unit: "m³/s²",
+        axes: NUMBER,
+        range: ANY,
+        get: |force| match force.kind {
+            ForceKind::GravityPoint { intensity, .. } => Some(number(intensity)),
+            _ => None,
+        },
+        set: |force, value| match force.kind {
+            ForceKind::GravityPoint { position, .. } => {
+                kind(ForceKind::GravityPoint { position, intensity: value.x })
+            }
+            _ => None,
+        },
+        now: None,
+    },
+    Field {
+        label: "Density",
+        unit: "kg/m³",
+        axes: NUMBER,
+        range: NOT_NEGATIVE,
+        get: |force| match force.kind {
+            ForceKind::Drag { density } => Some(number(density)),
+            _ => None,
+        },
+        set: |force, density| match force.kind {
+            ForceKind::Drag { .. } => kind(ForceKind::Drag { density: density.x }),
+            _ => None,
+        },
+        now: None,
+    },
+];
+
+/// What the map and the simulation have; the solver's numbers are in [`crate::scene::PARAMS`].
+pub const SCENE_FIELDS: &[Field<Scene, Edit>] = &[
+    Field {
+        label: "Size",
+        unit: "m",
+        axes: XYZ,
+        range: POSITIVE,
+        get: |scene| Some(scene.map.size),
+        set: |_, size| Some(Edit::MapSize(size)),
+        now: None,
+    },
+    Field {
+        label: "Tiles",
+        unit: "",
+        axes: XYZ,
+        range: (1.0, 65_536.0),
+        get: |scene| Some(DVec3::from_array(scene.map.tiles.map(f64::from))),
+        // the cast saturates, and the document refuses what is out of range
+        set: |_, tiles| Some(Edit::MapTiles(tiles.to_array().map(|count| count.round() as u32))),
+        now: None,
+    },
+    Field {
+        label: "Time speed",
+        unit: "×",
+        axes: NUMBER,
+        range: POSITIVE,
+        get: |scene| Some(number(scene.time_speed)),
+        set: |_, speed| Some(Edit::TimeSpeed(speed.x)),
+        now: None,
+    },
+];
+
+fn number(value: f64) -> DVec3 {
+    DVec3::new(value, 0.0, 0.0)
+}
+
+fn kind(kind: ForceKind) -> Option<ForceChange> {
+    Some(ForceChange::Kind(kind))
+}

@@ -1,0 +1,228 @@
+//! Files: new, open, save, reload, and the guard that lets nothing be lost unasked.
+
+use std::path::{Path, PathBuf};
+
+use super::dialogue::{Answer, Intent, Question, Request};
+use super::disk::{DiskStamp, has_changed};
+use super::history::History;
+use super::session::OpenFile;
+use super::{Notice, Outcome, Recovered, SAMPLES, Session};
+use crate::scene::Document;
+
+impl Session {
+    /// Does `intent`, after asking when it would lose unsaved changes.
+    pub(super) fn ask_then(&mut self, intent: Intent) {
+        self.settle();
+        if self.is_dirty() {
+            self.question = Some(Question::UnsavedChanges { title: self.file.title.clone(), then: intent });
+        } else {
+            self.carry_on(intent);
+        }
+    }
+
+    /// Takes the answer to the open question. One that the question does not offer changes nothing.
+    pub(super) fn answer(&mut self, answer: Answer) {
+        let offered = self.question.as_ref().is_some_and(|question| question.answers().contains(&answer));
+        if !offered {
+            return;
+        }
+        match (self.question.take(), answer) {
+            (Some(Question::UnsavedChanges { then, .. }), Answer::Save) => self.save(Some(then)),
+            (Some(Question::UnsavedChanges { then, .. }), Answer::Discard) => self.carry_on(then),
+            (Some(Question::ChangedOnDisk { path, then }), Answer::Overwrite) => self.write(path, then),
+            (Some(Question::ChangedOnDisk { then, .. }), Answer::SaveAs) => self.save_as(then),
+            (Some(Question::Recover(found)), Answer::Restore) => self.ask_then(Intent::Restore(found)),
+            (Some(Question::Recover(found)), Answer::Discard) => {
+                found.forget();
+                self.offer_recovery();
+            }
+            // Cancel and Later: everything stays as it is
+            _ => {}
+        }
+    }
+
+    fn carry_on(&mut self, intent: Intent) {
+        match intent {
+            Intent::New(style) => self.replace(Document::new(style), OpenFile::untitled("Untitled"), true),
+            Intent::OpenPath(path) => self.open(path),
+            Intent::OpenSample(index) => match SAMPLES.get(index) {
+                Some(sample) => {
+                    self.replace(Document::from_bytes(sample.bytes), OpenFile::untitled(sample.id), true);
+                }
+                None => self.notices.push(Notice::error("There is no such sample")),
+            },
+            Intent::Reload => {
+                if let Some(path) = self.file.path.clone() {
+                    self.open(path);
+                }
+            }
+            Intent::Restore(found) => self.restore(&found),
+            Intent::Quit => {
+                self.forget_recovery();
+                self.requests.push(Request::Quit);
+            }
+        }
+    }
+
+    /// Opens a file. One that can't be read leaves everything as it was; one with errors is shown with
+    /// them.
+    fn open(&mut self, path: PathBuf) {
+        let path = std::path::absolute(&path).unwrap_or(path);
+        let stamp = match readable(&path) {
+            Ok(stamp) => stamp,
+            Err(reason) => {
+                let text = format!("{} can't be opened: {reason}", path.display());
+                return self.notices.push(Notice::error(text));
+            }
+        };
+        let document = Document::open(&path);
+        let unread = document.diagnostics().iter().find(|problem| problem.is_error() && problem.position.is_none());
+        if let (None, Some(problem)) = (document.scene(), unread) {
+            let text = format!("{} can't be opened: {}", path.display(), problem.message);
+            return self.notices.push(Notice::error(text));
+        }
+        let errors = document.diagnostics().iter().filter(|problem| problem.is_error()).count();
+        self.replace(document, OpenFile::at(&path, Some(stamp)), true);
+        self.remember(&path);
+        if errors > 0 {
+            let text = format!("{} has {errors} errors, see Problems", self.file.title);
+            self.notices.push(Notice::warning(text));
+        }
+    }
+
+    pub(super) fn open_recent(&mut self, index: usize) -> Outcome {
+        let Some(path) = self.settings.recent.get(index).cloned() else {
+            return Outcome::Refused("There is no such recent file".to_owned());
+        };
+        self.ask_then(Intent::OpenPath(path));
+        Outcome::Done
+    }
+
+    fn restore(&mut self, found: &Recovered) {
+        let bytes = match found.bytes() {
+            Ok(bytes) => bytes,
+            Err(err) => return self.notices.push(Notice::error(format!("The work can't be restored: {err}"))),
+        };
+        let file = match &found.path {
+            Some(path) => OpenFile::at(path, found.stamp),
+            None => OpenFile::untitled(found.title()),
+        };
+        self.replace(Document::from_bytes(&bytes), file, false);
+        // the old copy goes only when this run has its own
+        match self.write_recovery() {
+            Ok(()) => found.forget(),
+            Err(err) => self.notices.push(Notice::warning(format!("Unsaved work can't be kept safe: {err}"))),
+        }
+        self.notices.push(Notice::info("Restored. Save to keep it."));
+    }
+
+    fn replace(&mut self, document: Document, file: OpenFile, saved: bool) {
+        self.forget_recovery();
+        self.drop_run();
+        self.history = History::new(document, saved);
+        self.file = file;
+        self.selection.clear();
+        self.shown_event = None;
+        self.after_save = None;
+        self.sync();
+    }
+
+    /// Saves to the document's file, or asks where to; then does `then`.
+    pub(super) fn save(&mut self, then: Option<Intent>) {
+        self.settle();
+        match (self.file.path.clone(), self.file.stamp) {
+            (Some(path), Some(stamp)) if has_changed(&path, stamp) => {
+                self.question = Some(Question::ChangedOnDisk { path, then });
+            }
+            (Some(path), _) => self.write(path, then),
+            (None, _) => self.save_as(then),
+        }
+    }
+
+    pub(super) fn save_as(&mut self, then: Option<Intent>) {
+        self.after_save = then;
+        let directory = self.file.path.as_deref().and_then(Path::parent).map(Path::to_owned);
+        let title = &self.file.title;
+        let file_name = if title.contains('.') { title.clone() } else { format!("{title}.xml") };
+        self.requests.push(Request::ChooseSavePath { directory, file_name });
+    }
+
+    /// Saves to the file that the user chose.
+    pub(super) fn save_to(&mut self, path: PathBuf) {
+        self.settle();
+        let then = self.after_save.take();
+        let with_extension = path.with_extension("xml");
+        // no dialog has asked about the longer name, so it must not replace anything
+        let path = if path.extension().is_none() && !with_extension.exists() { with_extension } else { path };
+        self.write(path, then);
+    }
+
+    fn write(&mut self, path: PathBuf, then: Option<Intent>) {
+        if let Err(err) = self.document().save(&path) {
+            let text = format!("{} can't be saved: {err}", path.display());
+            return self.notices.push(Notice::error(text));
+        }
+        self.history.mark_saved();
+        self.file = OpenFile::at(&path, DiskStamp::of(&path).ok());
+        self.forget_recovery();
+        self.remember(&path);
+        self.notices.push(Notice::info(format!("Saved {}", self.file.title)));
+        if let Some(intent) = then {
+            self.carry_on(intent);
+        }
+    }
+
+    /// Tells when another program changed or removed the file.
+    pub(super) fn look_at_disk(&mut self) {
+        let (Some(path), Some(stamp)) = (&self.file.path, self.file.stamp) else { return };
+        if !path.exists() {
+            self.notices.push(Notice::warning(format!("{} is gone from the disk", self.file.title)));
+            self.history.mark_unsaved();
+            self.file.stamp = None;
+        } else if has_changed(path, stamp) && !self.file.told_changed {
+            self.file.told_changed = true;
+            let text = format!("{} changed on the disk. File > Reload reads it again.", self.file.title);
+            self.notices.push(Notice::warning(text));
+        }
+    }
+
+    fn remember(&mut self, path: &Path) {
+        self.settings.add_recent(path);
+        self.store_settings();
+    }
+
+    /// Settings are a convenience: that they can't be kept is told, and stops nothing.
+    pub(super) fn store_settings(&mut self) {
+        if let Err(err) = self.settings.store(&self.storage) {
+            self.notices.push(Notice::warning(format!("Settings can't be kept: {err}")));
+        }
+    }
+
+    pub(super) fn can_save(&self) -> Result<(), &'static str> {
+        if self.is_dirty() || self.file.path.is_none() { Ok(()) } else { Err("everything is saved") }
+    }
+
+    pub(super) fn can_reload(&self) -> Result<(), &'static str> {
+        if self.file.path.is_some() { Ok(()) } else { Err("the scene has no file yet") }
+    }
+}
+
+impl OpenFile {
+    pub fn untitled(title: &str) -> Self {
+        Self { path: None, title: title.to_owned(), stamp: None, told_changed: false }
+    }
+
+    fn at(path: &Path, stamp: Option<DiskStamp>) -> Self {
+        let title = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+        Self { path: Some(path.to_owned()), title, stamp, told_changed: false }
+    }
+}
+
+/// What a file holds, or why it is none that could be opened.
+fn readable(path: &Path) -> Result<DiskStamp, String> {
+    let about = std::fs::metadata(path).map_err(|err| err.to_string())?;
+    if !about.is_file() {
+        return Err("it is no file".to_owned());
+    }
+    DiskStamp::of(path).map_err(|err| err.to_string())
+}

@@ -1,0 +1,98 @@
+//! What an edit is called in the Edit menu: `Move 5853`, `Change bounce of 3 objects`.
+
+use std::collections::BTreeSet;
+
+use crate::scene::{BodyChange, Edit, ForceChange, NodeKey, Scene};
+
+/// Names an edit after what it does and to what, in the scene before it.
+pub(super) fn describe(edit: &Edit, scene: Option<&Scene>) -> String {
+    let verb = verb_of(edit);
+    let mut subjects = BTreeSet::new();
+    collect_subjects(edit, &mut subjects);
+    match (subjects.len(), subjects.first()) {
+        (0, _) => verb.to_owned(),
+        (1, Some(key)) => match scene.and_then(|scene| name_of(scene, *key)) {
+            Some(name) => format!("{verb} {name}"),
+            None => format!("{verb} 1 object"),
+        },
+        (count, _) => format!("{verb} {count} objects"),
+    }
+}
+
+/// What to call a body or force: its name, or its unique label.
+pub(super) fn name_of(scene: &Scene, key: NodeKey) -> Option<&str> {
+    let body = scene.bodies.iter().find(|body| body.key == key).map(|body| body.display_name());
+    body.or_else(|| {
+        let force = scene.forces.iter().find(|force| force.key == key)?;
+        Some(force.name.as_deref().unwrap_or(&force.label))
+    })
+}
+
+fn verb_of(edit: &Edit) -> &'static str {
+    match edit {
+        Edit::MapSize(_) => "Resize the map",
+        Edit::MapTiles(_) => "Change the tiles",
+        Edit::TimeSpeed(_) => "Change the time speed",
+        Edit::Params(_) => "Change the solver",
+        Edit::Body { change, .. } => body_verb(change),
+        Edit::Force { change, .. } => force_verb(change),
+        Edit::AddBody(_) => "Add a body",
+        Edit::AddForce(_) => "Add a force",
+        Edit::Duplicate { .. } => "Duplicate",
+        Edit::Delete { .. } => "Delete",
+        Edit::MakeIdsUnique => "Make IDs unique",
+        Edit::All(edits) => {
+            let verbs: BTreeSet<&str> = edits.iter().map(verb_of).collect();
+            match (verbs.len(), edits.first()) {
+                (1, Some(first)) => verb_of(first),
+                _ => "Edit",
+            }
+        }
+    }
+}
+
+fn body_verb(change: &BodyChange) -> &'static str {
+    match change {
+        BodyChange::Id(_) => "Change ID of",
+        BodyChange::Name(_) => "Rename",
+        BodyChange::Color(_) => "Colour",
+        BodyChange::Hidden(true) => "Hide",
+        BodyChange::Hidden(false) => "Show",
+        BodyChange::Locked(true) => "Lock",
+        BodyChange::Locked(false) => "Unlock",
+        BodyChange::Position(_) => "Move",
+        BodyChange::Rotation(_) => "Rotate",
+        BodyChange::Bounce(_) => "Change bounce of",
+        BodyChange::Material(_) => "Change material of",
+        BodyChange::Mass(_) => "Change mass of",
+        BodyChange::Velocity(_) => "Change velocity of",
+        BodyChange::Shape(_) => "Resize",
+    }
+}
+
+fn force_verb(change: &ForceChange) -> &'static str {
+    match change {
+        ForceChange::Id(_) => "Change ID of",
+        ForceChange::Name(_) => "Rename",
+        ForceChange::Hidden(true) => "Hide",
+        ForceChange::Hidden(false) => "Show",
+        ForceChange::Locked(true) => "Lock",
+        ForceChange::Locked(false) => "Unlock",
+        ForceChange::Kind(_) => "Change",
+    }
+}
+
+fn collect_subjects(edit: &Edit, subjects: &mut BTreeSet<NodeKey>) {
+    match edit {
+        Edit::Body { key, .. } | Edit::Force { key, .. } => drop(subjects.insert(*key)),
+        Edit::Duplicate { keys, .. } | Edit::Delete { keys } => subjects.extend(keys),
+        Edit::All(edits) => edits.iter().for_each(|edit| collect_subjects(edit, subjects)),
+        Edit::MapSize(_)
+        | Edit::MapTiles(_)
+        | Edit::TimeSpeed(_)
+        | Edit::Params(_)
+        | Edit::AddBody(_)
+        | Edit::AddForce(_)
+        | Edit::MakeIdsUnique => {}
+    }
+}

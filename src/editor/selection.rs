@@ -1,0 +1,85 @@
+//! What is selected: bodies and forces by their document keys, or the map or the simulation.
+
+use crate::scene::{NodeKey, Scene};
+
+/// What the inspector can show that is neither a body nor a force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    Map,
+    Simulation,
+}
+
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Selection {
+    /// In the order of selecting: the last one is the primary.
+    keys: Vec<NodeKey>,
+    place: Option<Place>,
+}
+
+impl Selection {
+    pub fn keys(&self) -> &[NodeKey] {
+        &self.keys
+    }
+
+    /// The one selected last, which gizmos and single values belong to.
+    pub fn primary(&self) -> Option<NodeKey> {
+        self.keys.last().copied()
+    }
+
+    pub fn place(&self) -> Option<Place> {
+        self.place
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.keys.is_empty()
+    }
+
+    pub fn len(&self) -> usize {
+        self.keys.len()
+    }
+
+    pub fn contains(&self, key: NodeKey) -> bool {
+        self.keys.contains(&key)
+    }
+
+    /// Selects these and nothing else.
+    pub fn set(&mut self, keys: &[NodeKey]) {
+        self.clear();
+        self.add(keys);
+    }
+
+    pub fn add(&mut self, keys: &[NodeKey]) {
+        self.place = None;
+        let mut known: std::collections::BTreeSet<NodeKey> = self.keys.iter().copied().collect();
+        self.keys.extend(keys.iter().filter(|key| known.insert(**key)));
+    }
+
+    pub fn toggle(&mut self, key: NodeKey) {
+        match self.keys.iter().position(|other| *other == key) {
+            Some(index) => drop(self.keys.remove(index)),
+            None => self.add(&[key]),
+        }
+    }
+
+    pub fn set_place(&mut self, place: Place) {
+        self.keys.clear();
+        self.place = Some(place);
+    }
+
+    pub fn clear(&mut self) {
+        self.keys.clear();
+        self.place = None;
+    }
+
+    /// Forgets what is no longer in the scene.
+    pub fn purge(&mut self, scene: Option<&Scene>) {
+        if self.keys.is_empty() {
+            return;
+        }
+        let Some(scene) = scene else { return self.keys.clear() };
+        let bodies = scene.bodies.iter().map(|body| body.key);
+        let there: std::collections::BTreeSet<NodeKey> =
+            bodies.chain(scene.forces.iter().map(|force| force.key)).collect();
+        self.keys.retain(|key| there.contains(key));
+    }
+}

@@ -1,0 +1,85 @@
+//! What outlives a run: where it is kept, recent files and the last Δt.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+/// Most recent files remembered: what a menu shows without scrolling.
+const MAX_RECENT: usize = 10;
+
+/// Folders for what outlives a run. `None` keeps nothing, as tests want it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Storage {
+    /// Holds `settings.json`.
+    pub config: Option<PathBuf>,
+    /// Holds `recovery/`.
+    pub data: Option<PathBuf>,
+}
+
+impl Storage {
+    /// The user's own folders, as the platform has them.
+    pub fn of_user() -> Self {
+        let from_env = |name: &str| std::env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
+        let home = from_env("HOME").or_else(|| from_env("USERPROFILE"));
+        let folder = |first: &str, under_home: &str| {
+            let base = from_env(first).or_else(|| home.as_ref().map(|home| home.join(under_home)));
+            base.map(|base| base.join("polyscene"))
+        };
+        if cfg!(windows) {
+            let base = folder("APPDATA", "AppData/Roaming");
+            Self { config: base.clone(), data: base }
+        } else if cfg!(target_os = "macos") {
+            let base = folder("POLYSCENE_HOME", "Library/Application Support");
+            Self { config: base.clone(), data: base }
+        } else {
+            Self {
+                config: folder("XDG_CONFIG_HOME", ".config"),
+                data: folder("XDG_DATA_HOME", ".local/share"),
+            }
+        }
+    }
+}
+
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Settings {
+    /// Newest first.
+    pub recent: Vec<PathBuf>,
+    /// Δt as typed last.
+    pub dt: Option<String>,
+}
+
+impl Settings {
+    /// Settings that can't be read are the defaults: they hold nothing that matters.
+    pub(super) fn load(storage: &Storage) -> Self {
+        let text = settings_path(storage).and_then(|path| std::fs::read_to_string(path).ok());
+        text.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default()
+    }
+
+    pub(super) fn store(&self, storage: &Storage) -> std::io::Result<()> {
+        let Some(path) = settings_path(storage) else { return Ok(()) };
+        write_atomically(&path, serde_json::to_string_pretty(self)?.as_bytes())
+    }
+
+    pub(super) fn add_recent(&mut self, path: &Path) {
+        self.recent.retain(|other| other != path);
+        self.recent.insert(0, path.to_owned());
+        self.recent.truncate(MAX_RECENT);
+    }
+}
+
+fn settings_path(storage: &Storage) -> Option<PathBuf> {
+    storage.config.as_ref().map(|folder| folder.join("settings.json"))
+}
+
+/// Writes a file so that a crash leaves the old one or the new one; makes its folder when missing.
+pub(super) fn write_atomically(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    std::fs::create_dir_all(folder)?;
+    let mut file = tempfile::NamedTempFile::new_in(folder)?;
+    file.write_all(bytes)?;
+    file.as_file().sync_all()?;
+    file.persist(path)?;
+    Ok(())
+}
