@@ -1,8 +1,9 @@
 //! The one table of commands. It feeds menus, tool bar, shortcuts, palette, help sheet and tests.
 
 use super::Session;
-use super::command::{Axis, Command, CommandInfo, Key, Menu, Shortcut};
+use super::command::{Command, CommandInfo, Key, Menu, Shortcut};
 use crate::scene::NumberStyle;
+use crate::view::AxisView;
 
 /// All commands, in the order in which menus list them. Samples, recent files and overlays have tables
 /// of their own and reach the menus through [`Command::OpenSample`] and the like.
@@ -71,10 +72,16 @@ pub const COMMANDS: &[CommandInfo] = &[
     row(Menu::Edit, 2, "select_none", "Select none", "Clears the selection")
         .runs(Command::SelectNone)
         .keys(&[Shortcut::plain(Key::Escape)]),
-    row(Menu::Edit, 3, "hide", "Hide", "Keeps the selection out of the views; it still takes part in the simulation")
-        .runs(Command::Hide)
-        .keys(&[Shortcut::plain(Key::Char('H'))])
-        .when(Session::has_selection),
+    row(
+        Menu::Edit,
+        3,
+        "hide",
+        "Hide",
+        "Keeps the selection out of the views; it still takes part in the simulation",
+    )
+    .runs(Command::Hide)
+    .keys(&[Shortcut::plain(Key::Char('H'))])
+    .when(Session::has_selection),
     row(Menu::Edit, 3, "show_all", "Show all", "Shows everything that was hidden")
         .runs(Command::ShowAll)
         .keys(&[Shortcut::shift(Key::Char('H'))])
@@ -98,10 +105,16 @@ pub const COMMANDS: &[CommandInfo] = &[
     .runs(Command::TakeStateAsStart)
     .when(Session::can_take_state),
     //
-    row(Menu::Add, 0, "add_sphere_dynamic", "Dynamic sphere", "Adds a sphere that forces and collisions move")
-        .runs(Command::AddSphereDynamic)
-        .icon('●')
-        .when(Session::has_scene),
+    row(
+        Menu::Add,
+        0,
+        "add_sphere_dynamic",
+        "Dynamic sphere",
+        "Adds a sphere that forces and collisions move",
+    )
+    .runs(Command::AddSphereDynamic)
+    .icon('●')
+    .when(Session::has_scene),
     row(Menu::Add, 0, "add_sphere_static", "Static sphere", "Adds a sphere that never moves")
         .runs(Command::AddSphereStatic)
         .icon('○')
@@ -110,14 +123,26 @@ pub const COMMANDS: &[CommandInfo] = &[
         .runs(Command::AddPlane)
         .icon('▱')
         .when(Session::has_scene),
-    row(Menu::Add, 1, "add_gravity_plane", "Uniform gravity", "Adds the same acceleration for all dynamic bodies")
-        .runs(Command::AddGravityPlane)
-        .icon('⬇')
-        .when(Session::has_scene),
-    row(Menu::Add, 1, "add_gravity_point", "Point gravity", "Adds a point that attracts, or repels when negative")
-        .runs(Command::AddGravityPoint)
-        .icon('◎')
-        .when(Session::has_scene),
+    row(
+        Menu::Add,
+        1,
+        "add_gravity_plane",
+        "Uniform gravity",
+        "Adds the same acceleration for all dynamic bodies",
+    )
+    .runs(Command::AddGravityPlane)
+    .icon('⬇')
+    .when(Session::has_scene),
+    row(
+        Menu::Add,
+        1,
+        "add_gravity_point",
+        "Point gravity",
+        "Adds a point that attracts, or repels when negative",
+    )
+    .runs(Command::AddGravityPoint)
+    .icon('◎')
+    .when(Session::has_scene),
     row(Menu::Add, 1, "add_drag", "Air drag", "Adds resistance against motion; makes the file Version 1.1")
         .runs(Command::AddDrag)
         .icon('💨')
@@ -138,11 +163,17 @@ pub const COMMANDS: &[CommandInfo] = &[
         .icon('⬅')
         .keys(&[Shortcut::plain(Key::Char(','))])
         .when(Session::can_step_back),
-    row(Menu::Simulation, 0, "play_pause", "Play or pause", "Runs Δt after Δt, or stops after the current event")
-        .runs(Command::PlayPause)
-        .icon('▶')
-        .keys(&[Shortcut::plain(Key::Space)])
-        .when(Session::can_run),
+    row(
+        Menu::Simulation,
+        0,
+        "play_pause",
+        "Play or pause",
+        "Runs Δt after Δt, or stops after the current event",
+    )
+    .runs(Command::PlayPause)
+    .icon('▶')
+    .keys(&[Shortcut::plain(Key::Space)])
+    .when(Session::can_run),
     row(Menu::Simulation, 0, "step_forward", "Step forward", "Goes on by one Δt")
         .runs(Command::StepForward)
         .icon('➡')
@@ -153,11 +184,17 @@ pub const COMMANDS: &[CommandInfo] = &[
         .icon('⏩')
         .keys(&[Shortcut::plain(Key::Char('N'))])
         .when(Session::can_run),
-    row(Menu::Simulation, 0, "finish_step", "Finish this Δt", "Goes on to the end of the Δt that an event opened")
-        .runs(Command::FinishStep)
-        .icon('⏭')
-        .keys(&[Shortcut::plain(Key::End)])
-        .when(Session::can_finish_step),
+    row(
+        Menu::Simulation,
+        0,
+        "finish_step",
+        "Finish this Δt",
+        "Goes on to the end of the Δt that an event opened",
+    )
+    .runs(Command::FinishStep)
+    .icon('⏭')
+    .keys(&[Shortcut::plain(Key::End)])
+    .when(Session::can_finish_step),
     row(Menu::Simulation, 1, "step_forward_five", "Five steps forward", "Goes on by five Δt")
         .runs(Command::StepForwardFive)
         .keys(&[Shortcut::shift(Key::Char('.'))])
@@ -173,34 +210,55 @@ pub const COMMANDS: &[CommandInfo] = &[
         .runs(Command::Slower)
         .keys(&[Shortcut::plain(Key::Char('-'))]),
     //
-    row(Menu::View, 0, "frame_selection", "Frame selection", "Brings the selection into the middle of the view")
-        .runs(Command::FrameSelection)
-        .icon('⌖')
-        .keys(&[Shortcut::plain(Key::Char('F'))])
-        .when(Session::has_selection),
+    row(
+        Menu::View,
+        0,
+        "frame_selection",
+        "Frame selection",
+        "Brings the selection into the middle of the view",
+    )
+    .runs(Command::FrameSelection)
+    .icon('⌖')
+    .keys(&[Shortcut::plain(Key::Char('F'))])
+    .when(Session::has_selection),
     row(Menu::View, 0, "frame_all", "Frame all", "Brings the whole map into the view")
         .runs(Command::FrameAll)
         .icon('⛶')
         .keys(&[Shortcut::plain(Key::Char('A'))]),
     row(Menu::View, 1, "view_perspective", "Perspective", "Looks at the scene with perspective")
-        .runs(Command::ViewAlong(Axis::Perspective))
+        .runs(Command::ViewPerspective)
         .keys(&[Shortcut::plain(Key::Char('1')), Shortcut::plain(Key::Numpad(5))]),
     row(Menu::View, 1, "view_top", "Top", "Looks down on the scene, against y")
-        .runs(Command::ViewAlong(Axis::Top))
+        .runs(Command::ViewAlong(AxisView::Top))
         .keys(&[Shortcut::plain(Key::Char('2')), Shortcut::plain(Key::Numpad(7))]),
     row(Menu::View, 1, "view_front", "Front", "Looks at the scene from the front, against z")
-        .runs(Command::ViewAlong(Axis::Front))
+        .runs(Command::ViewAlong(AxisView::Front))
         .keys(&[Shortcut::plain(Key::Char('3')), Shortcut::plain(Key::Numpad(1))]),
     row(Menu::View, 1, "view_right", "Right", "Looks at the scene from the right, against x")
-        .runs(Command::ViewAlong(Axis::Right))
+        .runs(Command::ViewAlong(AxisView::Right))
         .keys(&[Shortcut::plain(Key::Char('4')), Shortcut::plain(Key::Numpad(3))]),
+    row(Menu::View, 1, "view_bottom", "Bottom", "Looks up at the scene, along y")
+        .runs(Command::ViewAlong(AxisView::Bottom))
+        .keys(&[Shortcut::shift(Key::Char('2'))]),
+    row(Menu::View, 1, "view_back", "Back", "Looks at the scene from behind, along z")
+        .runs(Command::ViewAlong(AxisView::Back))
+        .keys(&[Shortcut::shift(Key::Char('3'))]),
+    row(Menu::View, 1, "view_left", "Left", "Looks at the scene from the left, along x")
+        .runs(Command::ViewAlong(AxisView::Left))
+        .keys(&[Shortcut::shift(Key::Char('4'))]),
     row(Menu::View, 1, "toggle_projection", "Parallel or perspective", "Switches the projection of the view")
         .runs(Command::ToggleProjection)
         .keys(&[Shortcut::plain(Key::Char('P'))]),
-    row(Menu::View, 2, "maximize_view", "One view or four", "Fills the middle with the active view, or shows all four")
-        .runs(Command::MaximizeView)
-        .icon('⊞')
-        .keys(&[Shortcut::plain(Key::Char('M'))]),
+    row(
+        Menu::View,
+        2,
+        "maximize_view",
+        "One view or four",
+        "Fills the middle with the active view, or shows all four",
+    )
+    .runs(Command::MaximizeView)
+    .icon('⊞')
+    .keys(&[Shortcut::plain(Key::Char('M'))]),
     //
     row(Menu::Help, 0, "help", "Help", "Explains the window in one page")
         .runs(Command::Help)
@@ -213,8 +271,14 @@ pub const COMMANDS: &[CommandInfo] = &[
         .runs(Command::Palette)
         .icon('🔍')
         .keys(&[Shortcut::ctrl('P')]),
-    row(Menu::Help, 1, "about", "About PolyScene", "Tells the version, the licence and where to report a fault")
-        .runs(Command::About),
+    row(
+        Menu::Help,
+        1,
+        "about",
+        "About PolyScene",
+        "Tells the version, the licence and where to report a fault",
+    )
+    .runs(Command::About),
 ];
 
 const fn row(

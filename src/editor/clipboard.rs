@@ -31,7 +31,8 @@ impl Session {
             return Outcome::Refused("The clipboard holds no scene".to_owned());
         };
         let keys: Vec<NodeKey> = from.bodies.iter().map(|body| body.key).collect();
-        let covers = from.bodies.iter().any(|new| scene.bodies.iter().any(|old| old.position == new.position));
+        let covers =
+            from.bodies.iter().any(|new| scene.bodies.iter().any(|old| old.position == new.position));
         let offset = if covers { super::creation::offset_of_copy(from, &keys) } else { DVec3::ZERO };
         let mut edits: Vec<Edit> = from.forces.iter().map(|f| Edit::AddForce(Box::new(f.clone()))).collect();
         for body in &from.bodies {

@@ -5,6 +5,7 @@ use std::fmt;
 use super::Session;
 use super::catalog::COMMANDS;
 use crate::scene::NumberStyle;
+use crate::view::AxisView;
 
 /// Every user action that needs no further data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,25 +56,17 @@ pub enum Command {
 
     FrameSelection,
     FrameAll,
-    ViewAlong(Axis),
+    ViewPerspective,
+    ViewAlong(AxisView),
     MaximizeView,
     ToggleProjection,
-    /// The n-th overlay of the active view.
+    /// The n-th of [`crate::view::OVERLAYS`], in the active view.
     ToggleOverlay(usize),
 
     Help,
     Shortcuts,
     Palette,
     About,
-}
-
-/// Where a view looks from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Axis {
-    Perspective,
-    Top,
-    Front,
-    Right,
 }
 
 /// What became of a command.

@@ -28,7 +28,10 @@ impl Session {
             Command::AddPlane => add_body(plane(scene)),
             Command::AddGravityPlane => add_force(
                 scene,
-                ForceKind::GravityPlane { position: middle, acceleration: DVec3::new(0.0, -EARTH_GRAVITY, 0.0) },
+                ForceKind::GravityPlane {
+                    position: middle,
+                    acceleration: DVec3::new(0.0, -EARTH_GRAVITY, 0.0),
+                },
             ),
             Command::AddGravityPoint => {
                 add_force(scene, ForceKind::GravityPoint { position: middle, intensity: 8.0 })
@@ -102,10 +105,14 @@ fn free_place(scene: &Scene, radius: f64) -> DVec3 {
         let share = f64::from(k) / f64::from(PLACES_TRIED);
         let angle = f64::from(k) * 2.399_963_229_728_653;
         let out = share.sqrt();
-        middle + reach * DVec3::new(out * angle.cos(), (f64::from(k % 9) - 4.0) / 4.0 * share, out * angle.sin())
+        middle
+            + reach * DVec3::new(out * angle.cos(), (f64::from(k % 9) - 4.0) / 4.0 * share, out * angle.sin())
     });
     let rounded = spiral.map(|place| (place * 1e3).round() / 1e3);
-    rounded.into_iter().find(|place| scene.bodies.iter().all(|body| gap(body, *place) > radius)).unwrap_or(middle)
+    rounded
+        .into_iter()
+        .find(|place| scene.bodies.iter().all(|body| gap(body, *place) > radius))
+        .unwrap_or(middle)
 }
 
 /// Distance from a point to a body's surface, m; negative inside a sphere.

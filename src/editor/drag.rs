@@ -38,14 +38,14 @@ impl Drag {
 
     /// Moves everything by `offset` metres from where the drag began.
     pub fn move_by(&self, offset: DVec3) -> Action {
-        let bodies = self.bodies.iter().map(|(key, from)| Edit::Body {
-            key: *key,
-            change: BodyChange::Position(*from + offset),
-        });
-        let forces = self.forces.iter().map(|(key, kind)| Edit::Force {
-            key: *key,
-            change: ForceChange::Kind(moved(*kind, offset)),
-        });
+        let bodies = self
+            .bodies
+            .iter()
+            .map(|(key, from)| Edit::Body { key: *key, change: BodyChange::Position(*from + offset) });
+        let forces = self
+            .forces
+            .iter()
+            .map(|(key, kind)| Edit::Force { key: *key, change: ForceChange::Kind(moved(*kind, offset)) });
         Action::Edit { edit: Edit::All(bodies.chain(forces).collect()), gesture: Some(self.gesture) }
     }
 }
@@ -56,14 +56,18 @@ fn has_place(force: &Force) -> bool {
 
 fn place(kind: &ForceKind) -> Option<DVec3> {
     match kind {
-        ForceKind::GravityPoint { position, .. } | ForceKind::GravityPlane { position, .. } => Some(*position),
+        ForceKind::GravityPoint { position, .. } | ForceKind::GravityPlane { position, .. } => {
+            Some(*position)
+        }
         ForceKind::Drag { .. } => None,
     }
 }
 
 fn moved(mut kind: ForceKind, offset: DVec3) -> ForceKind {
     match &mut kind {
-        ForceKind::GravityPoint { position, .. } | ForceKind::GravityPlane { position, .. } => *position += offset,
+        ForceKind::GravityPoint { position, .. } | ForceKind::GravityPlane { position, .. } => {
+            *position += offset
+        }
         ForceKind::Drag { .. } => {}
     }
     kind

@@ -14,7 +14,12 @@ impl Session {
     }
 
     /// As [`Self::edit`], under another name in the Edit menu.
-    pub(super) fn edit_as(&mut self, edit: &Edit, gesture: Option<Gesture>, label: Option<String>) -> Outcome {
+    pub(super) fn edit_as(
+        &mut self,
+        edit: &Edit,
+        gesture: Option<Gesture>,
+        label: Option<String>,
+    ) -> Outcome {
         if self.open_gesture() != gesture {
             self.settle();
         }

@@ -83,6 +83,7 @@ impl Session {
 
             Command::FrameSelection
             | Command::FrameAll
+            | Command::ViewPerspective
             | Command::ViewAlong(_)
             | Command::MaximizeView
             | Command::ToggleProjection

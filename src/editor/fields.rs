@@ -75,9 +75,8 @@ impl Field<Body, BodyChange> {
     pub fn edit(&self, scene: &Scene, keys: &[NodeKey], axis: usize, value: f64) -> Edit {
         let keys: BTreeSet<NodeKey> = keys.iter().copied().collect();
         let chosen = scene.bodies.iter().filter(|body| keys.contains(&body.key));
-        let edits = chosen.filter_map(|body| {
-            Some(Edit::Body { key: body.key, change: self.change(body, axis, value)? })
-        });
+        let edits = chosen
+            .filter_map(|body| Some(Edit::Body { key: body.key, change: self.change(body, axis, value)? }));
         Edit::All(edits.collect())
     }
 }
@@ -178,9 +177,7 @@ pub const BODY_FIELDS: &[Field<Body, BodyChange>] = &[
             Shape::Sphere { .. } | Shape::Unbuilt { .. } => None,
         },
         set: |body, half| match body.shape {
-            Shape::Plane { .. } => {
-                Some(BodyChange::Shape(Shape::Plane { half_x: half.x, half_y: half.y }))
-            }
+            Shape::Plane { .. } => Some(BodyChange::Shape(Shape::Plane { half_x: half.x, half_y: half.y })),
             Shape::Sphere { .. } | Shape::Unbuilt { .. } => None,
         },
         now: None,
@@ -195,11 +192,15 @@ pub const FORCE_FIELDS: &[Field<Force, ForceChange>] = &[
         axes: XYZ,
         range: ANY,
         get: |force| match force.kind {
-            ForceKind::GravityPoint { position, .. } | ForceKind::GravityPlane { position, .. } => Some(position),
+            ForceKind::GravityPoint { position, .. } | ForceKind::GravityPlane { position, .. } => {
+                Some(position)
+            }
             ForceKind::Drag { .. } => None,
         },
         set: |force, position| match force.kind {
-            ForceKind::GravityPoint { intensity, .. } => kind(ForceKind::GravityPoint { position, intensity }),
+            ForceKind::GravityPoint { intensity, .. } => {
+                kind(ForceKind::GravityPoint { position, intensity })
+            }
             ForceKind::GravityPlane { acceleration, .. } => {
                 kind(ForceKind::GravityPlane { position, acceleration })
             }
@@ -217,7 +218,9 @@ pub const FORCE_FIELDS: &[Field<Force, ForceChange>] = &[
             _ => None,
         },
         set: |force, acceleration| match force.kind {
-            ForceKind::GravityPlane { position, .. } => kind(ForceKind::GravityPlane { position, acceleration }),
+            ForceKind::GravityPlane { position, .. } => {
+                kind(ForceKind::GravityPlane { position, acceleration })
+            }
             _ => None,
         },
         now: None,

@@ -76,7 +76,8 @@ impl Session {
             }
         };
         let document = Document::open(&path);
-        let unread = document.diagnostics().iter().find(|problem| problem.is_error() && problem.position.is_none());
+        let unread =
+            document.diagnostics().iter().find(|problem| problem.is_error() && problem.position.is_none());
         if let (None, Some(problem)) = (document.scene(), unread) {
             let text = format!("{} can't be opened: {}", path.display(), problem.message);
             return self.notices.push(Notice::error(text));
@@ -101,7 +102,9 @@ impl Session {
     fn restore(&mut self, found: &Recovered) {
         let bytes = match found.bytes() {
             Ok(bytes) => bytes,
-            Err(err) => return self.notices.push(Notice::error(format!("The work can't be restored: {err}"))),
+            Err(err) => {
+                return self.notices.push(Notice::error(format!("The work can't be restored: {err}")));
+            }
         };
         let file = match &found.path {
             Some(path) => OpenFile::at(path, found.stamp),

@@ -18,13 +18,8 @@ pub(super) fn live_change(running: &Scene, wanted: &Scene) -> LiveChange {
     let mut edits = Vec::new();
     let forces = live_forces(&running.forces, &wanted.forces, &mut edits);
     let bodies = live_bodies(&running.bodies, &wanted.bodies, &mut edits);
-    let scene = Scene {
-        map: running.map,
-        time_speed: wanted.time_speed,
-        params: running.params,
-        forces,
-        bodies,
-    };
+    let scene =
+        Scene { map: running.map, time_speed: wanted.time_speed, params: running.params, forces, bodies };
     LiveChange { edits, scene }
 }
 
@@ -103,11 +98,8 @@ fn live_body(running: Option<&Body>, wanted: &Body, edits: &mut Vec<SimEdit>) ->
             }
         }
         (Motion::Dynamic { mass: old_mass, velocity }, Motion::Dynamic { mass, .. }) => {
-            next = Body {
-                bounce: wanted.bounce,
-                motion: Motion::Dynamic { mass, velocity },
-                ..running.clone()
-            };
+            next =
+                Body { bounce: wanted.bounce, motion: Motion::Dynamic { mass, velocity }, ..running.clone() };
             if running.bounce != wanted.bounce {
                 edits.push(SimEdit::Bounce(wanted.key, wanted.bounce));
             }

@@ -73,7 +73,8 @@ impl Session {
             severity: if stopped { Severity::Error } else { Severity::Warning },
             source: ProblemSource::Run,
             message,
-            hint: if stopped { "reset, or step back and look at the bodies near the fault" } else { "" }.to_owned(),
+            hint: if stopped { "reset, or step back and look at the bodies near the fault" } else { "" }
+                .to_owned(),
             position: None,
             path: String::new(),
             key: None,

@@ -100,7 +100,8 @@ impl Recovery {
         let Some(folder) = &self.folder else { return Ok(None) };
         if self.own.is_none() {
             std::fs::create_dir_all(folder)?;
-            let nanos = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default().as_nanos();
+            let nanos =
+                SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default().as_nanos();
             let base = folder.join(format!("{}-{nanos}", std::process::id()));
             let lock = File::create(base.with_extension("lock"))?;
             // where locks are not supported the worst is that two runs offer the same work

@@ -20,7 +20,8 @@ pub struct Storage {
 impl Storage {
     /// The user's own folders, as the platform has them.
     pub fn of_user() -> Self {
-        let from_env = |name: &str| std::env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
+        let from_env =
+            |name: &str| std::env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
         let home = from_env("HOME").or_else(|| from_env("USERPROFILE"));
         let folder = |first: &str, under_home: &str| {
             let base = from_env(first).or_else(|| home.as_ref().map(|home| home.join(under_home)));

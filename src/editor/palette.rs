@@ -1,0 +1,60 @@
+//! Everything that can be done by name: the command table, samples, recent files and overlays.
+
+use super::catalog::COMMANDS;
+use super::{Command, SAMPLES, Session};
+use crate::view::OVERLAYS;
+
+/// One line of the command palette.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PaletteEntry {
+    pub command: Command,
+    pub label: String,
+    /// One sentence.
+    pub help: String,
+    /// Why it can't be used now.
+    pub disabled: Option<&'static str>,
+}
+
+/// All lines whose label has the letters of `query` in this order, best first: an empty query gives all.
+pub fn palette(session: &Session, query: &str) -> Vec<PaletteEntry> {
+    let mut found: Vec<(usize, PaletteEntry)> =
+        entries(session).filter_map(|entry| Some((distance(query, &entry.label)?, entry))).collect();
+    found.sort_by_key(|(distance, _)| *distance);
+    found.into_iter().map(|(_, entry)| entry).collect()
+}
+
+fn entries(session: &Session) -> impl Iterator<Item = PaletteEntry> {
+    let commands = COMMANDS.iter().map(|row| PaletteEntry {
+        command: row.command,
+        label: row.label_now(session),
+        help: row.help.to_owned(),
+        disabled: (row.enabled)(session).err(),
+    });
+    let samples = SAMPLES.iter().enumerate().map(|(index, sample)| {
+        entry(Command::OpenSample(index), format!("Sample: {}", sample.title), sample.shows.to_owned())
+    });
+    let recent = session.settings().recent.iter().enumerate().map(|(index, path)| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        entry(Command::OpenRecent(index), format!("Open recent: {name}"), path.display().to_string())
+    });
+    let overlays = OVERLAYS.iter().enumerate().map(|(index, overlay)| {
+        entry(Command::ToggleOverlay(index), format!("Overlay: {}", overlay.label), overlay.help.to_owned())
+    });
+    commands.chain(samples).chain(recent).chain(overlays)
+}
+
+fn entry(command: Command, label: String, help: String) -> PaletteEntry {
+    PaletteEntry { command, label, help, disabled: None }
+}
+
+/// How many letters of `label` lie between or before those of `query`; `None` when they are not all there
+/// in this order.
+fn distance(query: &str, label: &str) -> Option<usize> {
+    let mut letters = label.chars().flat_map(char::to_lowercase);
+    let wanted = query.chars().flat_map(char::to_lowercase).filter(|c| !c.is_whitespace());
+    let mut skipped = 0;
+    for letter in wanted {
+        skipped += letters.by_ref().position(|c| c == letter)?;
+    }
+    Some(skipped)
+}
