@@ -68,6 +68,14 @@ impl Session {
             | Command::AddGravityPoint
             | Command::AddDrag => return self.add(command),
 
+            _ => return self.drive(command),
+        }
+        Outcome::Done
+    }
+
+    /// The commands of the transport; all others are the window's.
+    fn drive(&mut self, command: Command) -> Outcome {
+        match command {
             Command::Reset => self.reset(),
             Command::PlayPause if self.is_busy() => self.pause(),
             Command::PlayPause => self.play(),
@@ -80,18 +88,7 @@ impl Session {
             Command::FinishStep => self.go_on(RunCommand::FinishStep),
             Command::Faster => self.set_speed(self.playback.speed() * 2.0),
             Command::Slower => self.set_speed(self.playback.speed() / 2.0),
-
-            Command::FrameSelection
-            | Command::FrameAll
-            | Command::ViewPerspective
-            | Command::ViewAlong(_)
-            | Command::MaximizeView
-            | Command::ToggleProjection
-            | Command::ToggleOverlay(_)
-            | Command::Help
-            | Command::Shortcuts
-            | Command::Palette
-            | Command::About => return Outcome::NotMine,
+            _ => return Outcome::NotMine,
         }
         Outcome::Done
     }
