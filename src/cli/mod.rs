@@ -5,6 +5,8 @@ mod error;
 mod input;
 mod number;
 mod output;
+#[cfg(feature = "render")]
+mod render;
 mod run;
 
 use std::ffi::OsString;
@@ -16,6 +18,8 @@ use clap::{Parser, Subcommand};
 pub use check::CheckArgs;
 pub use error::{CliError, say};
 pub use input::{Examined, examine};
+#[cfg(feature = "render")]
+pub use render::RenderArgs;
 pub use run::RunArgs;
 
 /// Design 3D rigid body scenes, step their simulation event by event, and see how accurate it is.
@@ -44,6 +48,8 @@ struct Cli {
 pub enum Verb {
     Run(RunArgs),
     Check(CheckArgs),
+    #[cfg(feature = "render")]
+    Render(RenderArgs),
 }
 
 impl Verb {
@@ -52,6 +58,8 @@ impl Verb {
         match self {
             Self::Run(args) => run::run(args),
             Self::Check(args) => check::check(args),
+            #[cfg(feature = "render")]
+            Self::Render(args) => render::render(args),
         }
     }
 }

@@ -3,6 +3,7 @@
 
 mod batch;
 mod error;
+mod gl;
 mod offscreen;
 mod passes;
 mod picture;

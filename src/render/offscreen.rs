@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use glow::HasContext as _;
 use glutin::api::egl::context::PossiblyCurrentContext;
 use glutin::api::egl::{device::Device, display::Display};
 use glutin::config::{ConfigSurfaceTypes, ConfigTemplateBuilder};
 use glutin::context::{ContextApi, ContextAttributesBuilder, GlProfile, Version};
 use glutin::prelude::*;
 
+use super::gl::Gl;
 use super::{RenderError, Renderer, draw_labels};
 use crate::view::DrawList;
 
@@ -36,6 +36,7 @@ impl Offscreen {
         Err(RenderError::NoContext(why))
     }
 
+    #[allow(unsafe_code, reason = "glutin can't know that the display outlives what is made from it")]
     fn on(device: &Device) -> Result<Self, Box<dyn std::error::Error>> {
         let template = ConfigTemplateBuilder::new().with_surface_type(ConfigSurfaceTypes::empty()).build();
         let attributes = ContextAttributesBuilder::new()
@@ -61,8 +62,7 @@ impl Offscreen {
 
     /// What draws, such as `llvmpipe (LLVM 15.0.6, 256 bits)`.
     pub fn device_name(&self) -> String {
-        // SAFETY: a plain query of the current context.
-        unsafe { self.gl.get_parameter_string(glow::RENDERER) }
+        Gl(Arc::clone(&self.gl)).device_name()
     }
 
     /// The picture of a list at its viewport's size, labels included.

@@ -1,12 +1,14 @@
 //! One picture, pass by pass, into whatever framebuffer is bound.
 
-use glow::HasContext as _;
+use std::sync::Arc;
+
 use three_d::{
     Blend, Context, Cull, DepthTest, Mat4, Program, RenderStates, Viewport, WriteMask, vec2, vec3,
 };
 
 use super::RenderError;
 use super::batch::Batch;
+use super::gl::Gl;
 use super::programs::Programs;
 use crate::view::DrawList;
 
@@ -45,8 +47,8 @@ impl Passes {
         })
     }
 
-    pub fn context(&self) -> &Context {
-        &self.context
+    pub fn gl(&self) -> Gl {
+        Gl(Arc::clone(&self.context))
     }
 
     /// Draws the whole list; `size` is the bound framebuffer's, pixels.
@@ -54,15 +56,16 @@ impl Passes {
         self.upload(list);
         let view = View::new(list, size);
         self.clear(&view);
-        self.with_clamped_depth(!list.is_perspective, |passes| {
-            passes.draw_plates(&passes.solid_plates, &view, SOLID);
-            passes.draw_spheres(&view);
-            passes.draw_strokes(&passes.lines, &view, LINE_PULL, TESTED);
-            passes.draw_plates(&passes.glass_plates, &view, TESTED);
-            passes.draw_strokes(&passes.top_lines, &view, 0.0, ON_TOP);
-            passes.draw_strokes(&passes.arrows, &view, 0.0, ON_TOP);
-            passes.draw_points(&view);
-        });
+        // Orthographic views have a far limit; bodies beyond it are to be seen.
+        self.gl().clamp_depth(!list.is_perspective);
+        self.draw_plates(&self.solid_plates, &view, SOLID);
+        self.draw_spheres(&view);
+        self.draw_strokes(&self.lines, &view, LINE_PULL, TESTED);
+        self.draw_plates(&self.glass_plates, &view, TESTED);
+        self.draw_strokes(&self.top_lines, &view, 0.0, ON_TOP);
+        self.draw_strokes(&self.arrows, &view, 0.0, ON_TOP);
+        self.draw_points(&view);
+        self.gl().clamp_depth(false);
         self.draw_strokes(&self.strokes, &view.flat(), 0.0, ON_TOP);
     }
 
@@ -81,44 +84,17 @@ impl Passes {
     }
 
     fn clear(&self, view: &View) {
-        let gl = &self.context;
-        // SAFETY: plain OpenGL calls on the current context with valid arguments, here and below.
-        unsafe {
-            gl.disable(glow::SCISSOR_TEST);
-            gl.color_mask(true, true, true, true);
-            gl.depth_mask(true);
-            gl.clear_color(0.0, 0.0, 0.0, 1.0);
-            gl.clear_depth_f32(1.0);
-            gl.clear(glow::COLOR_BUFFER_BIT | glow::DEPTH_BUFFER_BIT);
-        }
+        self.gl().clear();
         let program = &self.programs.background;
         self.background.bind(program);
         program.draw_arrays_instanced(ON_TOP, view.viewport, 3, self.background.count());
     }
 
-    /// Orthographic views have a far limit, beyond which bodies are drawn at the limit and not cut off.
-    fn with_clamped_depth(&self, clamped: bool, draw: impl FnOnce(&Self)) {
-        let clamped = clamped && !self.context.version().is_embedded;
-        // SAFETY: as above; DEPTH_CLAMP exists in every desktop OpenGL from 3.2.
-        unsafe {
-            if clamped {
-                self.context.enable(glow::DEPTH_CLAMP);
-            }
-        }
-        draw(self);
-        unsafe {
-            if clamped {
-                self.context.disable(glow::DEPTH_CLAMP);
-            }
-        }
-    }
-
     fn draw_spheres(&self, view: &View) {
         // Silhouettes come from ray casting, which multisampling can't see: their coverage is in alpha.
-        // SAFETY: as above.
-        unsafe { self.context.enable(glow::SAMPLE_ALPHA_TO_COVERAGE) };
+        self.gl().cover_by_alpha(true);
         self.draw_instances(&self.programs.sphere, &self.spheres, view, 0.0, SOLID);
-        unsafe { self.context.disable(glow::SAMPLE_ALPHA_TO_COVERAGE) };
+        self.gl().cover_by_alpha(false);
     }
 
     fn draw_plates(&self, batch: &Batch, view: &View, states: RenderStates) {

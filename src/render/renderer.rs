@@ -1,9 +1,8 @@
 //! Draws views into a window's framebuffer, and keeps each view's picture until its draw list changes.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::sync::Arc;
-
-use glow::HasContext as _;
 
 use super::RenderError;
 use super::passes::Passes;
@@ -61,15 +60,11 @@ impl Renderer {
         if visible.is_empty() {
             return Ok(false);
         }
-        let gl = Arc::clone(self.passes.context());
-        // SAFETY: plain OpenGL calls on the current context, here and below.
-        let bound = unsafe { gl.get_parameter_framebuffer(glow::DRAW_FRAMEBUFFER_BINDING) };
+        let gl = self.passes.gl();
+        let bound = gl.bound_framebuffer();
         let redrawn = self.update(view, list, [rect.width as u32, rect.height as u32]);
-        unsafe {
-            gl.enable(glow::SCISSOR_TEST);
-            gl.scissor(visible.x, visible.y, visible.width, visible.height);
-            gl.bind_framebuffer(glow::FRAMEBUFFER, bound);
-        }
+        gl.scissor(visible);
+        gl.bind_framebuffer(bound);
         let redrawn = redrawn?;
         if let Some(target) = self.views.get(&view) {
             target.copy_to(bound, [rect.x, rect.y]);
@@ -92,12 +87,11 @@ impl Renderer {
     }
 
     fn update(&mut self, view: usize, list: &DrawList, size: [u32; 2]) -> Result<bool, RenderError> {
-        if !self.views.contains_key(&view) {
-            self.views.insert(view, ViewTarget::new(Arc::clone(self.passes.context()))?);
-        }
-        let Some(target) = self.views.get_mut(&view) else { return Ok(false) };
-        let same = target.size() == size && target.revision == list.revision && list.revision != 0;
-        if same {
+        let target = match self.views.entry(view) {
+            Entry::Occupied(entry) => entry.into_mut(),
+            Entry::Vacant(entry) => entry.insert(ViewTarget::new(self.passes.gl())?),
+        };
+        if target.shows(list.revision, size) {
             return Ok(false);
         }
         target.resize(size)?;

@@ -81,8 +81,8 @@ fn blend(picture: &mut RgbaImage, x: f32, y: f32, color: Color, covered: f32) {
     }
     let Some(Rgba(below)) = picture.get_pixel_mut_checked(x as u32, y as u32) else { return };
     let alpha = covered * f32::from(color.0[3]) / 255.0;
-    for channel in 0..3 {
-        let (from, to) = (f32::from(below[channel]), f32::from(color.0[channel]));
-        below[channel] = (from + (to - from) * alpha).round() as u8;
+    for (channel, to) in below.iter_mut().zip(color.0).take(3) {
+        let (from, to) = (f32::from(*channel), f32::from(to));
+        *channel = (from + (to - from) * alpha).round() as u8;
     }
 }

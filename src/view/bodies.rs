@@ -23,7 +23,7 @@ pub(super) fn add(stage: &Stage<'_>, list: &mut DrawList) {
                 let rotation = rotation_matrix(posed.body.rotation);
                 let along = [rotation.x_axis, rotation.y_axis];
                 let face = Face { center: posed.position, along, half: [half_x, half_y], edged };
-                add_plate(stage, list, &mut glass, posed, face);
+                add_plate(stage, list, &mut glass, posed, &face);
             }
             Shape::Unbuilt { .. } => {
                 let (position, color) = (list.local(posed.position), ring(stage, posed).0);
@@ -59,7 +59,7 @@ fn add_sphere(stage: &Stage<'_>, list: &mut DrawList, posed: &Posed<'_>, radius:
     });
 }
 
-fn add_plate(stage: &Stage<'_>, list: &mut DrawList, glass: &mut Vec<Plate>, posed: &Posed<'_>, face: Face) {
+fn add_plate(stage: &Stage<'_>, list: &mut DrawList, glass: &mut Vec<Plate>, posed: &Posed<'_>, face: &Face) {
     let see_through = stage.is_see_through(posed);
     let marked = posed.selected || posed.hovered;
     match (see_through, marked) {

@@ -51,8 +51,8 @@ pub struct Camera {
     pub height: f64,
 }
 
-/// Half the vertical field of view of a perspective camera, radians.
-const HALF_FOV: f64 = 20.0 * std::f64::consts::PI / 180.0;
+/// Tangent of half the vertical field of view of a perspective camera: 20°.
+const TAN_HALF_FOV: f64 = 0.363_970_234_266_202_4;
 
 /// Near plane over the distance from eye to target. There is no far plane: a 24-bit depth buffer then
 /// tells depths apart that differ by 3e-5 of the distance, at the target.
@@ -139,14 +139,14 @@ impl Camera {
 
     /// Unit vector from the target to the eye.
     pub fn backward(&self) -> DVec3 {
-        let (sin_yaw, cos_yaw) = self.yaw.sin_cos();
-        let (sin_pitch, cos_pitch) = self.pitch.sin_cos();
+        let (sin_yaw, cos_yaw) = libm::sincos(self.yaw);
+        let (sin_pitch, cos_pitch) = libm::sincos(self.pitch);
         DVec3::new(cos_pitch * sin_yaw, sin_pitch, cos_pitch * cos_yaw)
     }
 
     /// Unit vector to the right of the view.
     pub fn right(&self) -> DVec3 {
-        let (sin_yaw, cos_yaw) = self.yaw.sin_cos();
+        let (sin_yaw, cos_yaw) = libm::sincos(self.yaw);
         DVec3::new(cos_yaw, 0.0, -sin_yaw)
     }
 
@@ -157,7 +157,7 @@ impl Camera {
 
     /// From eye to target, m. In an orthographic view the eye is where a perspective one would be.
     pub fn distance(&self) -> f64 {
-        0.5 * self.height / HALF_FOV.tan()
+        0.5 * self.height / TAN_HALF_FOV
     }
 
     pub fn eye(&self) -> DVec3 {
@@ -207,7 +207,7 @@ impl Camera {
                 Projection::Orthographic => 0.0,
             };
             // A corner at height y and depth d is at the edge when y = (distance − d) tan(fov/2).
-            let add = 2.0 * towards_eye * HALF_FOV.tan();
+            let add = 2.0 * towards_eye * TAN_HALF_FOV;
             width = width.max((2.0 * from_center.dot(self.right()).abs()) + add * aspect);
             height = height.max((2.0 * from_center.dot(self.up()).abs()) + add);
         }
@@ -239,7 +239,7 @@ impl Camera {
         let depth = self.distance() - from_target.dot(self.backward());
         let scale = match self.projection {
             Projection::Perspective if depth <= self.near() => return None,
-            Projection::Perspective => 1.0 / (depth * HALF_FOV.tan()),
+            Projection::Perspective => 1.0 / (depth * TAN_HALF_FOV),
             Projection::Orthographic => 2.0 / self.height,
         };
         let (x, y) = (from_target.dot(self.right()), from_target.dot(self.up()));
@@ -251,7 +251,7 @@ impl Camera {
     pub fn clip_segment(&self, from: DVec3, to: DVec3, aspect: f64) -> Option<(DVec3, DVec3)> {
         const MARGIN: f64 = 1.25;
         let half = match self.projection {
-            Projection::Perspective => HALF_FOV.tan(),
+            Projection::Perspective => TAN_HALF_FOV,
             Projection::Orthographic => 0.5 * self.height,
         };
         // How far inside each plane of the view a point lies; linear along the segment.
@@ -288,7 +288,7 @@ impl Camera {
             Projection::Orthographic => self.world_per_pixel(view_height),
             Projection::Perspective => {
                 let depth = self.distance() - (point - self.target).dot(self.backward());
-                2.0 * depth.max(self.near()) * HALF_FOV.tan() / view_height.max(1.0)
+                2.0 * depth.max(self.near()) * TAN_HALF_FOV / view_height.max(1.0)
             }
         }
     }
@@ -308,7 +308,7 @@ impl Camera {
     pub fn projection_matrix(&self, aspect: f64) -> DMat4 {
         match self.projection {
             Projection::Perspective => {
-                let f = 1.0 / HALF_FOV.tan();
+                let f = 1.0 / TAN_HALF_FOV;
                 DMat4::from_cols(
                     DVec4::new(f / aspect, 0.0, 0.0, 0.0),
                     DVec4::new(0.0, f, 0.0, 0.0),

@@ -22,7 +22,7 @@ pub(super) fn round_down_125(value: f64) -> f64 {
     if !(value.is_normal() && value > 0.0) {
         return 1.0;
     }
-    let power = 10_f64.powi((value.log10() + 1e-12).floor() as i32);
+    let power = libm::exp10((libm::log10(value) + 1e-12).floor());
     let mantissa = value / power * (1.0 + 1e-12);
     power * [5.0, 2.0].into_iter().find(|step| mantissa >= *step).unwrap_or(1.0)
 }

@@ -30,13 +30,10 @@ fn round_up_125(spacing: f64) -> f64 {
 }
 
 /// Multiples of `step` in a range, as counts; none if there are too many to see.
-fn multiples(low: f64, high: f64, step: f64) -> std::ops::RangeInclusive<i64> {
+fn multiples(low: f64, high: f64, step: f64) -> impl Iterator<Item = i64> {
     let (first, last) = ((low / step - 1e-6).ceil(), (high / step + 1e-6).floor());
-    if last - first <= MOST && first.abs().max(last.abs()) < 1e15 {
-        first as i64..=last as i64
-    } else {
-        1..=0
-    }
+    let sensible = last - first <= MOST && first.abs().max(last.abs()) < 1e15;
+    sensible.then_some(first as i64..=last as i64).into_iter().flatten()
 }
 
 /// Lines across an axis view, behind the scene, with numbers along the left and the bottom edge.
@@ -121,5 +118,5 @@ fn label(position: Vec2, align: Align, text: &str, color: Color) -> Label {
 
 /// A multiple of `step` with as many digits as the step has.
 fn number_text(value: f64, step: f64) -> String {
-    number(value, (-step.log10().floor()).clamp(0.0, 12.0) as usize)
+    number(value, (-libm::log10(step).floor()).clamp(0.0, 12.0) as usize)
 }

@@ -23,7 +23,7 @@ pub(in crate::view) fn add(stage: &Stage<'_>, list: &mut DrawList) {
     let bodies = stage.bodies.iter().filter(|posed| is_named(stage, posed));
     let mut names: Vec<Name<'_>> = bodies
         .filter_map(|posed| {
-            Some(name(stage, posed.body.display_name(), posed.position, above(stage, posed), rank(posed))?)
+            name(stage, posed.body.display_name(), posed.position, above(stage, posed), rank(posed))
         })
         .collect();
     names.extend(forces::visible(stage.input.scene).filter_map(|(force, place)| {

@@ -1,0 +1,250 @@
+//! `polyscene render`: a picture of a scene without a window, a display or a GPU.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use clap::{Args, ValueEnum};
+
+use super::{CliError, input, number};
+use crate::record::{BodyFrame, EventRow, Frame};
+use crate::render::{Offscreen, RenderError, Tile, render_picture};
+use crate::scene::Scene;
+use crate::sim::{BodyRef, Event, Fault, Simulation};
+use crate::view::{
+    Align, Camera, DrawList, Label, OVERLAYS, OverlaySet, Theme, VIEWS, ViewInput, ViewPreset, Viewport,
+    build_draw_list, scene_bounds,
+};
+
+/// Draw a scene into a PNG file
+///
+/// Needs neither a display nor a GPU: OpenGL runs in software through EGL. Shows the start, or the state
+/// at `--at` with the contacts of the last Δt.
+#[derive(Debug, Args)]
+#[command(after_help = after_help())]
+pub struct RenderArgs {
+    /// Scene file; `-` is standard input
+    scene: PathBuf,
+
+    /// Picture to write
+    #[arg(short, long, value_name = "OUT.png")]
+    out: PathBuf,
+
+    /// Model time to show, in seconds
+    #[arg(long, value_name = "S", value_parser = number::seconds)]
+    at: Option<f64>,
+
+    /// Δt before `--at` whose contacts are shown, in seconds; fractions such as 1/60 are fine
+    #[arg(long, value_name = "S", value_parser = number::seconds, default_value = "1/60")]
+    dt: f64,
+
+    /// Size of the picture in pixels
+    #[arg(long, value_name = "WxH", value_parser = size, default_value = "1600x1000")]
+    size: [u32; 2],
+
+    /// The four views side by side, or one of them
+    #[arg(long, value_enum, default_value_t = View::Quad)]
+    view: View,
+
+    /// Overlays to show, separated by commas; `none` shows none [default: what suits the view]
+    #[arg(long, value_name = "LIST", value_parser = overlays)]
+    overlays: Option<OverlaySet>,
+
+    /// Colours
+    #[arg(long, value_enum, default_value_t = Colors::Dark)]
+    colors: Colors,
+
+    /// Size of text and lines
+    #[arg(long, value_name = "FACTOR", value_parser = zoom, default_value = "1")]
+    zoom: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+enum View {
+    Quad,
+    Perspective,
+    Top,
+    Front,
+    Right,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Colors {
+    Dark,
+    Light,
+}
+
+/// Pixels between the views of a quad picture.
+const GAP: u32 = 2;
+
+/// Most occupied tiles to look up for the overlay.
+const TILE_LIMIT: usize = 4000;
+
+pub(super) fn render(args: &RenderArgs) -> Result<(), CliError> {
+    let name = input::display_name(&args.scene);
+    let examined = input::open(&args.scene)?;
+    for line in examined.lines(&name) {
+        super::say(line);
+    }
+    let (Some(scene), Some(mut simulation)) = (examined.document.scene(), examined.simulation) else {
+        return Err(CliError::Scene(format!("{name} can't be drawn: it has errors")));
+    };
+    let frame = frame_at(&mut simulation, args.at.unwrap_or(0.0), args.dt).map_err(CliError::Fault)?;
+
+    let mut offscreen = Offscreen::new().map_err(|error| unusable(&error))?;
+    let tiles = tiles(args, scene, &frame);
+    for note in tiles.iter().flat_map(|tile| &tile.list.notes) {
+        super::say(note);
+    }
+    let [r, g, b, _] = args.theme().palette().map_box.0;
+    let picture = render_picture(&mut offscreen, args.size, [r, g, b, 255], &tiles)
+        .map_err(|error| unusable(&error))?;
+    picture
+        .save_with_format(&args.out, image::ImageFormat::Png)
+        .map_err(|error| CliError::Usage(format!("can't write {}: {error}", args.out.display())))
+}
+
+fn unusable(error: &RenderError) -> CliError {
+    CliError::Usage(error.to_string())
+}
+
+impl RenderArgs {
+    fn theme(&self) -> Theme {
+        match self.colors {
+            Colors::Dark => Theme::Dark,
+            Colors::Light => Theme::Light,
+        }
+    }
+}
+
+/// The views of the picture, each at its place.
+fn tiles(args: &RenderArgs, scene: &Scene, frame: &Frame) -> Vec<Tile> {
+    let [width, height] = args.size;
+    if args.view == View::Quad {
+        let half = |side: u32| ((side.saturating_sub(GAP)) / 2).max(1);
+        let size = [half(width), half(height)];
+        return VIEWS
+            .iter()
+            .zip([[0, 0], [1, 0], [0, 1], [1, 1]])
+            .map(|(preset, [column, row])| Tile {
+                list: list(args, preset, scene, frame, size),
+                x: column * (width - size[0]),
+                y: row * (height - size[1]),
+            })
+            .collect();
+    }
+    let one = VIEWS.iter().find(|preset| View::from_str(preset.id, false) == Ok(args.view));
+    one.map(|preset| Tile { list: list(args, preset, scene, frame, args.size), x: 0, y: 0 })
+        .into_iter()
+        .collect()
+}
+
+fn list(args: &RenderArgs, preset: &ViewPreset, scene: &Scene, frame: &Frame, size: [u32; 2]) -> DrawList {
+    let [width, height] = size.map(|side| f64::from(side) / args.zoom);
+    let viewport = Viewport::new(width, height, args.zoom);
+    let theme = args.theme();
+    let mut input = ViewInput::new(scene, Camera::default(), viewport);
+    // Around the start, so that pictures of different times can be laid over each other.
+    input.camera = preset.camera(scene_bounds(&input, None), viewport.aspect());
+    input.frame = Some(frame);
+    input.overlays = args.overlays.unwrap_or_else(|| preset.overlay_set());
+    input.theme = theme;
+    let mut list = build_draw_list(&input);
+    list.labels.push(Label {
+        position: glam::Vec2::new(10.0, 7.0),
+        text: format!("{} · t = {} s", preset.label, crate::view::number(frame.time, 6)),
+        color: theme.palette().text,
+        size: 13.0,
+        align: Align::LeftTop,
+        back: theme.palette().label_back,
+    });
+    list
+}
+
+/// The picture of the simulation at a time, with the events of the Δt before.
+fn frame_at(simulation: &mut Simulation, at: f64, dt: f64) -> Result<Frame, Fault> {
+    let mut events = Vec::new();
+    if at > 0.0 {
+        simulation.begin((at - dt).max(0.0));
+        simulation.finish(&mut |_, _| {})?;
+        simulation.begin(at);
+        simulation.finish(&mut |simulation, event| events.push(Arc::new(row(simulation, event))))?;
+    }
+    Ok(Frame {
+        time: simulation.time(),
+        bodies: simulation.dynamic_bodies().filter_map(|body| body_frame(simulation, body)).collect(),
+        events,
+        tiling: Arc::new(simulation.tiling(TILE_LIMIT)),
+        ..Frame::default()
+    })
+}
+
+fn body_frame(simulation: &Simulation, body: BodyRef) -> Option<BodyFrame> {
+    let state = simulation.state(body)?;
+    Some(BodyFrame {
+        key: simulation.key(body),
+        position: state.position,
+        velocity: state.velocity,
+        acceleration: state.acceleration,
+        force: simulation.total_force(body),
+        // No overlay shows it.
+        kinetic: 0.0,
+        contact: state.contact,
+    })
+}
+
+fn row(simulation: &Simulation, event: &Event) -> EventRow {
+    EventRow {
+        event: *event,
+        a_key: simulation.key(event.a),
+        b_key: event.b.map(|b| simulation.key(b)),
+        a_label: simulation.label(event.a).to_owned(),
+        b_label: event.b.map_or_else(String::new, |b| simulation.label(b).to_owned()),
+        dt_index: 1,
+    }
+}
+
+fn size(text: &str) -> Result<[u32; 2], String> {
+    const MOST: u32 = 16_384;
+    let parsed = text.split_once(['x', 'X', '×']).and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
+    match parsed {
+        Some([width, height]) if (16..=MOST).contains(&width) && (16..=MOST).contains(&height) => {
+            Ok([width, height])
+        }
+        Some(_) => Err(format!("each side must be from 16 to {MOST} pixels")),
+        None => Err("expected a width and a height, such as 1600x1000".into()),
+    }
+}
+
+fn zoom(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(value) if (0.25..=8.0).contains(&value) => Ok(value),
+        _ => Err("expected a factor from 0.25 to 8".into()),
+    }
+}
+
+fn overlays(text: &str) -> Result<OverlaySet, String> {
+    if text == "none" {
+        return Ok(OverlaySet::NONE);
+    }
+    let ids: Vec<&str> = text.split(',').map(str::trim).filter(|id| !id.is_empty()).collect();
+    match ids.iter().find(|id| OVERLAYS.iter().all(|overlay| overlay.id != **id)) {
+        Some(unknown) => Err(format!("no overlay is called `{unknown}`; there are: {}", overlay_ids())),
+        None => Ok(OverlaySet::from_ids(ids)),
+    }
+}
+
+fn overlay_ids() -> String {
+    OVERLAYS.iter().map(|overlay| overlay.id).collect::<Vec<_>>().join(", ")
+}
+
+fn after_help() -> String {
+    let mut help = String::from(
+        "Examples:\n  polyscene render scenes/orbit.xml -o orbit.png\n  \
+         polyscene render scenes/thesis-appendix-2.xml -o box.png --at 2 --view top --overlays map,grid,tiles\n\n\
+         Overlays:\n",
+    );
+    for overlay in OVERLAYS {
+        help.push_str(&format!("  {:<12}{}\n", overlay.id, overlay.help));
+    }
+    help
+}
