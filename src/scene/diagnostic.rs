@@ -55,3 +55,21 @@ impl fmt::Display for Diagnostic {
         Ok(())
     }
 }
+
+/// A piece of the file for a message: short, and without characters that steer a terminal.
+pub(super) fn shown(text: &str) -> String {
+    const LONGEST: usize = 60;
+    let mut shown = String::new();
+    for (count, c) in text.chars().enumerate() {
+        if count == LONGEST {
+            shown.push('…');
+            break;
+        }
+        if c.is_control() {
+            shown.extend(c.escape_default());
+        } else {
+            shown.push(c);
+        }
+    }
+    shown
+}

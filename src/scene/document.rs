@@ -1,127 +1,93 @@
-//! The lossless document and its edits.
+//! The lossless document: a scene file in memory, its meaning and its bytes.
 
+use std::fmt;
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::Path;
+use std::sync::{Arc, OnceLock};
 
-use glam::DVec3;
-
-use super::{Body, Diagnostic, Force, ForceKind, NodeKey, Scene, Shape, SimParams};
-
-/// How a new file writes its numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum NumberStyle {
-    /// `-9,8`, as the predecessor's tools wrote and read it.
-    #[default]
-    Comma,
-    /// `-9.8`.
-    Point,
-}
+use super::encoding::{self, Encoding, Form};
+use super::read::{self, Meaning};
+use super::rules::MAX_FILE_BYTES;
+use super::source::{Source, position_in};
+use super::tree::{Children, View};
+use super::{Diagnostic, NodeKey, NumberStyle, Scene, Severity, locate, parse, save, shown, write};
 
 /// A scene file in memory. Immutable: an edit gives a new document that shares what did not change,
 /// so undo keeps the old one. Saving writes back the very bytes of everything not edited.
-#[derive(Clone, Debug)]
-pub struct Document {}
-
-/// One change of the document. Each changes only the bytes it must.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Edit {
-    MapSize(DVec3),
-    MapTiles([u32; 3]),
-    TimeSpeed(f64),
-    Params(SimParams),
-    Body {
-        key: NodeKey,
-        change: BodyChange,
-    },
-    Force {
-        key: NodeKey,
-        change: ForceChange,
-    },
-    /// Adds a copy of `body` after the last body; its key and label are chosen, its id too if taken.
-    AddBody(Box<Body>),
-    AddForce(Box<Force>),
-    /// Copies bodies and forces as they stand in the file, comments and unknown parts included, each
-    /// after its original, with a fresh UserID, moved by `offset` metres.
-    Duplicate {
-        keys: Vec<NodeKey>,
-        offset: DVec3,
-    },
-    Delete {
-        keys: Vec<NodeKey>,
-    },
-    /// Gives a fresh UserID to every body (and force) whose id an earlier one has.
-    MakeIdsUnique,
-    /// Several edits as one.
-    All(Vec<Edit>),
+///
+/// Cloning is cheap. Positions in diagnostics are those of the file as it was read.
+#[derive(Clone)]
+pub struct Document {
+    pub(super) source: Arc<Source>,
+    pub(super) content: Content,
+    /// Read when first asked for.
+    pub(super) meaning: OnceLock<Arc<Meaning>>,
 }
 
-#[derive(Clone, Debug, PartialEq)]
-pub enum BodyChange {
-    Id(i64),
-    Name(Option<String>),
-    Color(Option<[u8; 3]>),
-    Hidden(bool),
-    Locked(bool),
-    Position(DVec3),
-    Rotation(DVec3),
-    Bounce(f64),
-    Material(Option<String>),
-    /// Dynamic bodies only.
-    Mass(f64),
-    /// Dynamic bodies only.
-    Velocity(DVec3),
-    Shape(Shape),
-}
-
-#[derive(Clone, Debug, PartialEq)]
-pub enum ForceChange {
-    Id(i64),
-    Name(Option<String>),
-    Hidden(bool),
-    Locked(bool),
-    /// Same kind as before, other numbers.
-    Kind(ForceKind),
-}
-
-/// A document after an edit, and the keys of what the edit added.
-#[derive(Clone, Debug)]
-pub struct Edited {
-    pub document: Document,
-    pub added: Vec<NodeKey>,
-}
-
-/// Why an edit was refused. The document is as it was.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum EditError {
-    #[error("that element is no longer in the scene")]
-    Gone,
-    #[error("{0}")]
-    Invalid(String),
+#[derive(Clone)]
+pub(super) enum Content {
+    Tree(Children),
+    /// Bytes that are no well-formed XML, kept as they are, and what is wrong with them.
+    Broken(Arc<[u8]>),
 }
 
 impl Document {
     /// An empty scene: a 10×10×10 m map of 10×10×10 tiles, no bodies, no forces.
-    pub fn new(_style: NumberStyle) -> Self {
-        todo!()
+    pub fn new(style: NumberStyle) -> Self {
+        Self::from_bytes(write::new_file(style).as_bytes())
     }
 
     /// Reads a file's bytes, whatever they are. Never panics; every problem becomes a [`Diagnostic`].
-    pub fn from_bytes(_bytes: &[u8]) -> Self {
-        todo!()
+    pub fn from_bytes(bytes: &[u8]) -> Self {
+        if bytes.len() as u64 > MAX_FILE_BYTES {
+            let message = format!("the file is larger than {} MiB", MAX_FILE_BYTES / (1024 * 1024));
+            return Self::broken(&[], unreadable(message, "divide the scene"));
+        }
+        let decoded = match encoding::decode(bytes.to_vec()) {
+            Ok(decoded) => decoded,
+            Err(fault) => {
+                let position = Some(position_in(&fault.before, fault.before.len()));
+                return Self::broken(
+                    bytes,
+                    Diagnostic { position, ..unreadable(fault.message, &fault.hint) },
+                );
+            }
+        };
+        let source = Source::new(decoded.text, decoded.encoding, decoded.contradiction);
+        match parse::document(&source.text, &source.keys) {
+            Ok(tree) => Self::of_tree(Arc::new(source), tree),
+            Err(fault) => {
+                let (position, path) = (Some(source.position(fault.at)), fault.path);
+                let diagnostic = Diagnostic { position, path, ..unreadable(fault.message, &fault.hint) };
+                Self::broken(bytes, diagnostic)
+            }
+        }
     }
 
     /// Reads a file. A file that can't be read gives a diagnostic without a position.
-    pub fn open(_path: &Path) -> Self {
-        todo!()
+    pub fn open(path: &Path) -> Self {
+        let mut bytes = Vec::new();
+        let read = File::open(path).and_then(|file| file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes));
+        match read {
+            Ok(_) => Self::from_bytes(&bytes),
+            Err(err) => Self::broken(&[], unreadable(format!("the file cannot be read: {err}"), "")),
+        }
     }
 
     /// What the document means; `None` if it has errors that leave no scene to work with.
     pub fn scene(&self) -> Option<&Scene> {
-        todo!()
+        self.meaning().scene.as_deref()
+    }
+
+    /// The scene, to be held longer than the document.
+    pub fn scene_shared(&self) -> Option<Arc<Scene>> {
+        self.meaning().scene.clone()
     }
 
     /// All problems, in the order of their places.
     pub fn diagnostics(&self) -> &[Diagnostic] {
-        todo!()
+        &self.meaning().diagnostics
     }
 
     /// Whether any diagnostic is an error.
@@ -130,26 +96,97 @@ impl Document {
     }
 
     /// Line and column (1-based) and element path, for diagnostics that other layers make.
-    pub fn place_of(&self, _key: NodeKey) -> (Option<(u32, u32)>, String) {
-        todo!()
+    pub fn place_of(&self, key: NodeKey) -> (Option<(u32, u32)>, String) {
+        let chain = self.chain(key);
+        let position = chain.last().and_then(|el| el.place()).map(|at| self.source.position(at as usize));
+        let label = self.scene().and_then(|scene| locate::label_of(scene, key));
+        let mut path = chain.iter().map(|el| format!("/{}", shown(el.name()))).collect::<String>();
+        if let Some(label) = label {
+            path.push_str(&format!("[{label}]"));
+        }
+        (position, path)
+    }
+
+    /// An element as it is written in the file, with what stands inside it.
+    pub fn element_text(&self, key: NodeKey) -> Option<String> {
+        let chain = self.chain(key);
+        let mut text = String::new();
+        write::element(chain.last()?.node, &self.source.text, &mut text);
+        Some(text)
     }
 
     /// Why the file is Version 1.1: the new physics it uses, such as `SpaceAverse`. Empty for 1.0.
     pub fn reasons_for_1_1(&self) -> Vec<String> {
-        todo!()
+        self.meaning().features.used().map(|(name, ..)| name.to_owned()).collect()
     }
 
     /// The file's bytes: in the encoding and with the line ends it came with.
     pub fn to_bytes(&self) -> Vec<u8> {
-        todo!()
+        match &self.content {
+            Content::Tree(top) => {
+                let text = write::children(top, &self.source.text);
+                encoding::encode(&text, self.source.encoding)
+            }
+            Content::Broken(bytes) => bytes.to_vec(),
+        }
     }
 
     /// Writes the file atomically: temporary file beside it, sync, rename.
-    pub fn save(&self, _path: &Path) -> std::io::Result<()> {
-        todo!()
+    pub fn save(&self, path: &Path) -> io::Result<()> {
+        save::atomically(path, &self.to_bytes())
     }
 
-    pub fn apply(&self, _edit: &Edit) -> Result<Edited, EditError> {
-        todo!()
+    /// Drops the typed scene, which is made again when it is asked for: for documents that wait in an
+    /// undo history. Elements stay shared with other versions.
+    pub fn forget_scene(&mut self) {
+        if matches!(self.content, Content::Tree(_)) {
+            self.meaning = OnceLock::new();
+        }
+    }
+
+    pub(super) fn of_tree(source: Arc<Source>, tree: Children) -> Self {
+        Self { source, content: Content::Tree(tree), meaning: OnceLock::new() }
+    }
+
+    pub(super) fn meaning(&self) -> &Meaning {
+        self.meaning.get_or_init(|| match &self.content {
+            Content::Tree(top) => Arc::new(read::read(&self.source, top)),
+            Content::Broken(_) => Arc::default(),
+        })
+    }
+
+    /// The elements from the root down to the one with that key; empty if there is none.
+    fn chain(&self, key: NodeKey) -> Vec<View<'_>> {
+        match &self.content {
+            Content::Tree(top) => locate::chain(top, &self.source.text, key),
+            Content::Broken(_) => Vec::new(),
+        }
+    }
+
+    /// A document of bytes that hold no tree.
+    fn broken(bytes: &[u8], diagnostic: Diagnostic) -> Self {
+        let encoding = Encoding { bom: false, form: Form::Utf8 };
+        let meaning = Meaning { diagnostics: vec![diagnostic], ..Meaning::default() };
+        Self {
+            source: Arc::new(Source::new(String::new(), encoding, None)),
+            content: Content::Broken(bytes.into()),
+            meaning: OnceLock::from(Arc::new(meaning)),
+        }
+    }
+}
+
+/// What is wrong with a file that could not be read.
+fn unreadable(message: String, hint: &str) -> Diagnostic {
+    let (severity, path) = (Severity::Error, String::new());
+    Diagnostic { severity, position: None, path, message, hint: hint.to_owned(), key: None }
+}
+
+impl fmt::Debug for Document {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let meaning = self.meaning();
+        f.debug_struct("Document")
+            .field("scene", &meaning.scene)
+            .field("diagnostics", &meaning.diagnostics)
+            .finish_non_exhaustive()
     }
 }

@@ -2,10 +2,26 @@
 
 mod diagnostic;
 mod document;
+mod edit;
+mod encoding;
+mod ids;
+mod locate;
+mod number;
 mod params;
+mod parse;
+mod read;
+mod rules;
+mod save;
+mod source;
+mod tree;
 mod types;
+mod write;
+
+use diagnostic::shown;
 
 pub use diagnostic::{Diagnostic, Severity};
-pub use document::{BodyChange, Document, Edit, EditError, Edited, ForceChange, NumberStyle};
+pub use document::Document;
+pub use edit::{BodyChange, Edit, EditError, Edited, ForceChange};
+pub use number::NumberStyle;
 pub use params::{PARAMS, ParamInfo, SimParams};
 pub use types::{Body, Force, ForceKind, Map, Motion, NodeKey, Scene, Shape, rotation_matrix};

@@ -10,3 +10,6 @@
 
 // The rules of the source tree: layers, file sizes, function sizes.
 mod layering;
+
+// The reader: values, defaults, labels, places.
+mod scene_read;

@@ -1,0 +1,89 @@
+//! Edits: each gives a new document and changes only the bytes it must.
+
+use glam::DVec3;
+
+use super::{Body, Document, Force, ForceKind, NodeKey, Shape, SimParams};
+
+/// One change of the document. Each changes only the bytes it must.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Edit {
+    MapSize(DVec3),
+    MapTiles([u32; 3]),
+    TimeSpeed(f64),
+    Params(SimParams),
+    Body {
+        key: NodeKey,
+        change: BodyChange,
+    },
+    Force {
+        key: NodeKey,
+        change: ForceChange,
+    },
+    /// Adds a copy of `body` after the last body; its key and label are chosen, its id too if taken.
+    AddBody(Box<Body>),
+    AddForce(Box<Force>),
+    /// Copies bodies and forces as they stand in the file, comments and unknown parts included, each
+    /// after its original, with a fresh UserID, moved by `offset` metres.
+    Duplicate {
+        keys: Vec<NodeKey>,
+        offset: DVec3,
+    },
+    Delete {
+        keys: Vec<NodeKey>,
+    },
+    /// Gives a fresh UserID to every body (and force) whose id an earlier one has.
+    MakeIdsUnique,
+    /// Several edits as one.
+    All(Vec<Edit>),
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum BodyChange {
+    Id(i64),
+    Name(Option<String>),
+    Color(Option<[u8; 3]>),
+    Hidden(bool),
+    Locked(bool),
+    Position(DVec3),
+    Rotation(DVec3),
+    Bounce(f64),
+    Material(Option<String>),
+    /// Dynamic bodies only.
+    Mass(f64),
+    /// Dynamic bodies only.
+    Velocity(DVec3),
+    Shape(Shape),
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum ForceChange {
+    Id(i64),
+    Name(Option<String>),
+    Hidden(bool),
+    Locked(bool),
+    /// Same kind as before, other numbers.
+    Kind(ForceKind),
+}
+
+/// A document after an edit, and the keys of what the edit added.
+#[derive(Clone, Debug)]
+pub struct Edited {
+    pub document: Document,
+    pub added: Vec<NodeKey>,
+}
+
+/// Why an edit was refused. The document is as it was.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum EditError {
+    #[error("that element is no longer in the scene")]
+    Gone,
+    #[error("{0}")]
+    Invalid(String),
+}
+
+impl Document {
+    /// Applies an edit. The document it is applied to stays as it is.
+    pub fn apply(&self, _edit: &Edit) -> Result<Edited, EditError> {
+        todo!()
+    }
+}

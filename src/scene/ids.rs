@@ -1,0 +1,60 @@
+//! UserIDs: labels that files repeat or leave out, made into labels that are unique.
+
+use rustc_hash::{FxHashMap, FxHashSet};
+
+/// Largest id that is given: the predecessor's tools read 32 bits.
+const MAX_GIVEN: i64 = i32::MAX as i64;
+
+/// What one body or force is called.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Label {
+    pub id: i64,
+    /// 1 for the first of that id in file order.
+    pub repeat: u32,
+}
+
+impl Label {
+    /// `id`, or `id#k` for the k-th of that id.
+    pub fn text(self) -> String {
+        let Self { id, repeat } = self;
+        if repeat == 1 { id.to_string() } else { format!("{id}#{repeat}") }
+    }
+}
+
+/// The ids of all bodies or of all forces of a document.
+#[derive(Debug)]
+pub(super) struct Ids {
+    taken: FxHashSet<i64>,
+    repeats: FxHashMap<i64, u32>,
+    /// Where to look for the next id to give.
+    next: i64,
+}
+
+impl Ids {
+    pub fn new(ids: impl Iterator<Item = i64>) -> Self {
+        let taken = ids.collect::<FxHashSet<_>>();
+        let largest = taken.iter().copied().max().unwrap_or(0).max(0);
+        let next = if largest < MAX_GIVEN { largest + 1 } else { 1 };
+        Self { taken, repeats: FxHashMap::default(), next }
+    }
+
+    /// An id that nothing has: the one after the largest, or the smallest free one if that is too large.
+    pub fn fresh(&mut self) -> i64 {
+        while !self.taken.insert(self.next) {
+            self.next = if self.next < MAX_GIVEN { self.next + 1 } else { 1 };
+        }
+        self.next
+    }
+
+    /// The label of the next in file order, with a given id if it has none.
+    pub fn label(&mut self, id: Option<i64>) -> Label {
+        let id = id.unwrap_or_else(|| self.fresh());
+        let repeat = self.repeats.entry(id).or_insert(0);
+        *repeat += 1;
+        Label { id, repeat: *repeat }
+    }
+
+    pub fn is_taken(&self, id: i64) -> bool {
+        self.taken.contains(&id)
+    }
+}

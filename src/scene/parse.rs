@@ -1,0 +1,289 @@
+//! Text to tree: quick-xml finds the pieces, this adds the checks of well-formedness that it leaves out
+//! and keeps every byte. The first fault ends it.
+
+use std::sync::{Arc, OnceLock};
+
+use quick_xml::Reader;
+use quick_xml::events::Event;
+
+use super::rules::{MAX_DEPTH, is_name, is_xml_char};
+use super::shown;
+use super::tree::{Child, Children, Element, Keys, NO_PLACE, Text, tag};
+
+/// Why a text is not well-formed XML that this program reads.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct ParseFault {
+    /// In bytes.
+    pub at: usize,
+    /// Names of the open elements, from the root.
+    pub path: String,
+    pub message: String,
+    pub hint: String,
+}
+
+/// Parses a whole file.
+pub(super) fn document(source: &str, keys: &Keys) -> Result<Children, ParseFault> {
+    check_characters(source)?;
+    let mut parser = Parser::new(source, keys, true);
+    if source.starts_with('\u{FEFF}') {
+        return Err(parser.fault(0, "the file has two byte order marks", "remove one"));
+    }
+    parser.run()?;
+    if !parser.has_root {
+        let message = if source.trim().is_empty() { "the file is empty" } else { "there is no root element" };
+        return Err(parser.fault(0, message, "a scene starts with <PolyPhysicsXml Version=\"1.0\">"));
+    }
+    Ok(parser.top.into())
+}
+
+/// Parses a piece of new XML that this program wrote; its nodes own their text.
+pub(super) fn fragment(xml: &str, keys: &Keys) -> Result<Vec<Child>, ParseFault> {
+    check_characters(xml)?;
+    let mut parser = Parser::new(xml, keys, false);
+    parser.run()?;
+    Ok(parser.top)
+}
+
+/// An element whose end tag has not come yet.
+struct Open<'a> {
+    at: usize,
+    key: super::NodeKey,
+    tag: &'a str,
+    children: Vec<Child>,
+}
+
+struct Parser<'a> {
+    source: &'a str,
+    keys: &'a Keys,
+    /// A whole file: texts refer to the source, and what may stand outside the root is checked.
+    whole: bool,
+    has_root: bool,
+    open: Vec<Open<'a>>,
+    top: Vec<Child>,
+}
+
+impl<'a> Parser<'a> {
+    fn new(source: &'a str, keys: &'a Keys, whole: bool) -> Self {
+        Self { source, keys, whole, has_root: false, open: Vec::new(), top: Vec::new() }
+    }
+
+    fn run(&mut self) -> Result<(), ParseFault> {
+        let mut reader = Reader::from_str(self.source);
+        reader.config_mut().check_comments = false;
+        loop {
+            let start = reader.buffer_position() as usize;
+            let event = reader.read_event();
+            let end = reader.buffer_position() as usize;
+            match event {
+                Ok(Event::Eof) => return self.finish(),
+                Ok(event) => self.event(&event, start, end)?,
+                Err(err) => {
+                    let at = reader.error_position() as usize;
+                    return Err(self.fault(at, &err.to_string(), "the file is not well-formed XML"));
+                }
+            }
+        }
+    }
+
+    fn event(&mut self, event: &Event<'_>, start: usize, end: usize) -> Result<(), ParseFault> {
+        let piece = self.source.get(start..end).unwrap_or("");
+        match event {
+            Event::Start(_) => self.start(start, piece)?,
+            Event::Empty(_) => {
+                self.start(start, piece)?;
+                self.end(Text::empty());
+            }
+            Event::End(_) => self.end(self.text(start, end)),
+            Event::Text(_) => self.plain_text(start, end, piece)?,
+            Event::CData(_) => self.inside_only(start, end, "a CDATA section stands outside the root")?,
+            Event::GeneralRef(_) => {
+                self.check_references(start, piece)?;
+                self.inside_only(start, end, "a reference stands outside the root")?;
+            }
+            Event::Comment(content) => {
+                if content.contains("--") || content.ends_with('-') {
+                    let hint = "XML forbids it; use single hyphens";
+                    return Err(self.fault(start, "a comment contains --", hint));
+                }
+                self.push(start, end);
+            }
+            Event::PI(content) => {
+                let target = content.target();
+                if !is_name(target) || target.eq_ignore_ascii_case("xml") {
+                    return Err(self.fault(start, "a processing instruction has no valid name", ""));
+                }
+                self.push(start, end);
+            }
+            Event::Decl(_) => {
+                if start > 0 || !self.whole {
+                    let hint = "move <?xml …?> to the very start of the file, or remove it";
+                    return Err(self.fault(start, "an XML declaration stands inside the file", hint));
+                }
+                self.push(start, end);
+            }
+            Event::DocType(_) => {
+                let hint = "remove the DOCTYPE; scenes need none, and it could load or expand anything";
+                return Err(self.fault(start, "a DOCTYPE is not allowed", hint));
+            }
+            Event::Eof => {}
+        }
+        Ok(())
+    }
+
+    fn start(&mut self, at: usize, tag: &'a str) -> Result<(), ParseFault> {
+        if self.open.len() == MAX_DEPTH {
+            let message = format!("elements are nested more than {MAX_DEPTH} deep");
+            return Err(self.fault(at, &message, "a scene needs 6 levels"));
+        }
+        if self.open.is_empty() && self.whole {
+            if self.has_root {
+                return Err(self.fault(at, "there is a second root element", "a file holds one scene"));
+            }
+            self.has_root = true;
+        }
+        if !is_name(tag::name(tag)) {
+            let hint = "a < that starts no tag is written &lt;";
+            return Err(self.fault(at, "this is not a valid name of an element", hint));
+        }
+        self.check_attributes(at, tag)?;
+        self.open.push(Open { at, key: self.keys.fresh(), tag, children: Vec::new() });
+        Ok(())
+    }
+
+    fn check_attributes(&self, at: usize, tag: &str) -> Result<(), ParseFault> {
+        let mut names: Vec<&str> = Vec::new();
+        for attr in tag::attributes(tag) {
+            let attr = attr.map_err(|fault| self.fault(at + fault.at, fault.message, ""))?;
+            let here = at + attr.whole.start + 1;
+            if !is_name(attr.name) {
+                return Err(self.fault(here, "this is not a valid name of an attribute", ""));
+            }
+            if attr.raw.contains('<') {
+                return Err(self.fault(at + attr.value.start, "a value contains <", "write it as &lt;"));
+            }
+            self.check_references(at + attr.value.start, attr.raw)?;
+            names.push(attr.name);
+        }
+        names.sort_unstable();
+        match names.windows(2).find(|pair| pair[0] == pair[1]) {
+            Some(pair) => {
+                let message = format!("the attribute {} appears twice", shown(pair[0]));
+                Err(self.fault(at, &message, "remove one of them"))
+            }
+            None => Ok(()),
+        }
+    }
+
+    fn end(&mut self, close: Text) {
+        // The reader has checked that the names match, so there is an open element.
+        let Some(open) = self.open.pop() else { return };
+        let element = Element {
+            key: open.key,
+            at: if self.whole { open.at as u32 } else { NO_PLACE },
+            open: self.text(open.at, open.at + open.tag.len()),
+            close,
+            children: Children::from(open.children),
+            reading: OnceLock::new(),
+        };
+        self.siblings().push(Child::Element(Arc::new(element)));
+    }
+
+    fn plain_text(&mut self, start: usize, end: usize, piece: &str) -> Result<(), ParseFault> {
+        let outside = self.open.is_empty() && self.whole;
+        if outside && !piece.chars().all(super::number::is_space) {
+            let blank = piece.len() - piece.trim_start().len();
+            let hint = "only comments may stand there";
+            return Err(self.fault(start + blank, "text stands outside the root element", hint));
+        }
+        if let Some(at) = piece.find("]]>") {
+            return Err(self.fault(start + at, "text contains ]]>", "write it as ]]&gt;"));
+        }
+        if start < end {
+            self.push(start, end);
+        }
+        Ok(())
+    }
+
+    fn inside_only(&mut self, start: usize, end: usize, message: &str) -> Result<(), ParseFault> {
+        if self.open.is_empty() {
+            return Err(self.fault(start, message, "only comments may stand there"));
+        }
+        self.push(start, end);
+        Ok(())
+    }
+
+    /// Only the five entities of XML and character references exist.
+    fn check_references(&self, at: usize, raw: &str) -> Result<(), ParseFault> {
+        for (offset, _) in raw.match_indices('&') {
+            let rest = &raw[offset + 1..];
+            let name = rest.split(';').next().filter(|name| name.len() < rest.len());
+            if !name.is_some_and(is_known_reference) {
+                let message = match name {
+                    Some(name) => format!("the entity &{}; does not exist", shown(name)),
+                    None => "a & starts no reference".to_owned(),
+                };
+                return Err(self.fault(at + offset, &message, "write & as &amp;"));
+            }
+        }
+        Ok(())
+    }
+
+    fn finish(&mut self) -> Result<(), ParseFault> {
+        match self.open.last() {
+            Some(open) => {
+                let message = format!("<{}> is never closed", shown(tag::name(open.tag)));
+                Err(self.fault(open.at, &message, "the file may have been cut off"))
+            }
+            None => Ok(()),
+        }
+    }
+
+    fn siblings(&mut self) -> &mut Vec<Child> {
+        match self.open.last_mut() {
+            Some(open) => &mut open.children,
+            None => &mut self.top,
+        }
+    }
+
+    fn push(&mut self, start: usize, end: usize) {
+        let text = self.text(start, end);
+        self.siblings().push(Child::Raw(text));
+    }
+
+    fn text(&self, start: usize, end: usize) -> Text {
+        if self.whole {
+            // Files are at most 256 MiB.
+            Text::Source { start: start as u32, end: end as u32 }
+        } else {
+            Text::from(self.source.get(start..end).unwrap_or(""))
+        }
+    }
+
+    fn fault(&self, at: usize, message: &str, hint: &str) -> ParseFault {
+        let path = self.open.iter().map(|open| format!("/{}", shown(tag::name(open.tag)))).collect();
+        ParseFault { at, path, message: message.to_owned(), hint: hint.to_owned() }
+    }
+}
+
+fn is_known_reference(name: &str) -> bool {
+    if matches!(name, "amp" | "lt" | "gt" | "apos" | "quot") {
+        return true;
+    }
+    let Some(number) = name.strip_prefix('#') else { return false };
+    let code = match number.strip_prefix('x') {
+        Some(hex) if hex.bytes().all(|b| b.is_ascii_hexdigit()) => u32::from_str_radix(hex, 16).ok(),
+        None if number.bytes().all(|b| b.is_ascii_digit()) => number.parse().ok(),
+        _ => None,
+    };
+    code.and_then(char::from_u32).is_some_and(is_xml_char)
+}
+
+fn check_characters(source: &str) -> Result<(), ParseFault> {
+    let Some((at, c)) = source.char_indices().find(|&(_, c)| !is_xml_char(c)) else { return Ok(()) };
+    Err(ParseFault {
+        at,
+        path: String::new(),
+        message: format!("the character U+{:04X} is not allowed in XML", u32::from(c)),
+        hint: "is this a text file?".into(),
+    })
+}

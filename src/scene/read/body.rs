@@ -1,0 +1,129 @@
+//! Bodies: `SoftObject` and `HardObject`.
+
+use glam::DVec3;
+
+use super::cosmetic::Cosmetics;
+use super::feature::FeatureCounts;
+use super::log::{Log, place_in};
+use super::shape;
+use crate::scene::rules::Range;
+use crate::scene::tree::View;
+use crate::scene::{Body, Motion, shown};
+
+pub(super) const BODIES: [&str; 2] = ["SoftObject", "HardObject"];
+
+/// The children of a body in the order in which they are written. A static body has no mass or motion.
+pub(in crate::scene) const BODY_ORDER: [&str; 14] = [
+    "Translation",
+    "Rotation",
+    "Bounce",
+    "Friction",
+    "Material",
+    "Weight",
+    "InitialVelocity",
+    "InitialAngularVelocity",
+    "Sphere",
+    "Plane",
+    "Box",
+    "Cylinder",
+    "Mesh",
+    "Compound",
+];
+
+/// The shapes among them.
+pub(in crate::scene) const SHAPES: [&str; 6] = ["Sphere", "Plane", "Box", "Cylinder", "Mesh", "Compound"];
+
+/// Reads a body. What is wrong is reported and takes its default, so that the body can be shown and mended.
+pub(super) fn read<'a>(
+    el: View<'a>,
+    log: &mut Log<'a>,
+    cosmetics: Cosmetics,
+    features: &mut FeatureCounts,
+) -> Body {
+    let dynamic = el.name() == "SoftObject";
+    let [translation, rotation, bounce, friction, material, weight, velocity, spin, shapes @ ..] =
+        log.children(el, BODY_ORDER);
+    for child in [friction, material, spin].into_iter().chain(shapes).flatten() {
+        features.note(child.name(), child.place());
+    }
+    if translation.is_none() {
+        let hint = "write <Translation X=\"…\" Y=\"…\" Z=\"…\" />";
+        log.error(el.place(), "the body has no Translation", hint);
+    }
+    unbuilt_friction(log, friction);
+    unbuilt_spin(log, spin, dynamic);
+    let mut vector =
+        |el: Option<View<'a>>| el.and_then(|el| log.vector(el, Range::Any)).unwrap_or(DVec3::ZERO);
+    let (position, rotation) = (vector(translation), vector(rotation));
+    let motion = if dynamic {
+        let velocity = vector(velocity);
+        let mass = weight.and_then(|el| log.scalar(el, Range::Positive)).unwrap_or(1.0);
+        Motion::Dynamic { mass, velocity }
+    } else {
+        for child in [weight, velocity].into_iter().flatten() {
+            let message = format!("{} means nothing on a static body", child.name());
+            log.warn(child.place(), message, "it is kept as it is; a SoftObject would use it");
+        }
+        Motion::Static
+    };
+    Body {
+        key: el.node.key,
+        id: 0,
+        label: String::new(),
+        name: cosmetics.name,
+        color: cosmetics.color,
+        hidden: cosmetics.hidden,
+        locked: cosmetics.locked,
+        position,
+        rotation,
+        bounce: read_bounce(log, bounce),
+        material: material.and_then(|el| read_material(log, el)),
+        motion,
+        shape: shape::read(el, log, shapes, dynamic),
+    }
+}
+
+fn read_bounce<'a>(log: &mut Log<'a>, el: Option<View<'a>>) -> f64 {
+    let Some(el) = el else { return 1.0 };
+    let bounce = log.scalar(el, Range::NotNegative).unwrap_or(1.0);
+    if bounce > 1.0 {
+        let at = el.attribute("F32").and_then(|attr| place_in(el, attr.value.start));
+        let hint = "impacts add energy unless the other body's Bounce makes up for it";
+        log.within(el, |log| log.warn(at, "Bounce is greater than 1", hint));
+    }
+    bounce
+}
+
+fn read_material<'a>(log: &mut Log<'a>, el: View<'a>) -> Option<String> {
+    log.within(el, |log| {
+        log.leaf(el, &["Text"]);
+        let text = el.value("Text");
+        if text.is_none() {
+            log.error(el.place(), "the attribute Text is missing", "write Text=\"…\"");
+        }
+        text.map(|text| text.into_owned()).filter(|text| !text.is_empty())
+    })
+}
+
+fn unbuilt_friction<'a>(log: &mut Log<'a>, el: Option<View<'a>>) {
+    let Some(el) = el else { return };
+    if log.scalar(el, Range::NotNegative).is_some_and(|friction| friction != 0.0) {
+        log.within(el, |log| unbuilt(log, el, "Friction other than 0"));
+    }
+}
+
+fn unbuilt_spin<'a>(log: &mut Log<'a>, el: Option<View<'a>>, dynamic: bool) {
+    let Some(el) = el else { return };
+    let spins = log.vector(el, Range::Any).is_some_and(|spin| spin != DVec3::ZERO);
+    if spins && dynamic {
+        log.within(el, |log| unbuilt(log, el, "InitialAngularVelocity other than 0"));
+    } else if spins {
+        log.warn(el.place(), "InitialAngularVelocity means nothing on a static body", "it is kept as it is");
+    }
+}
+
+/// Reports what the format knows and this version cannot simulate.
+pub(super) fn unbuilt(log: &mut Log<'_>, el: View<'_>, what: &str) {
+    let message = format!("{} cannot be simulated by this version", shown(what));
+    log.error(el.place(), message, "it is kept in the file; remove it to run the scene");
+}

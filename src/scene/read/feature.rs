@@ -1,0 +1,62 @@
+//! What format 1.1 added: physics that an older reader would silently leave out.
+
+/// Elements of 1.1, by name. The order is that of the list a user sees.
+const NAMES: [&str; 9] = [
+    "SpaceAverse",
+    "Friction",
+    "Material",
+    "InitialAngularVelocity",
+    "Box",
+    "Cylinder",
+    "Mesh",
+    "Compound",
+    "Solver",
+];
+
+/// The names, for what [`FeatureCounts`] counts.
+pub(in crate::scene) fn feature_names() -> &'static [&'static str] {
+    &NAMES
+}
+
+/// How often a document uses each element of 1.1, and where first.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(in crate::scene) struct FeatureCounts {
+    counts: [u32; NAMES.len()],
+    first: [Option<u32>; NAMES.len()],
+}
+
+impl FeatureCounts {
+    /// Counts an element if it is one of 1.1.
+    pub fn note(&mut self, name: &str, at: Option<u32>) {
+        if let Some(slot) = NAMES.iter().position(|&candidate| candidate == name) {
+            if self.counts[slot] == 0 {
+                self.first[slot] = at;
+            }
+            self.counts[slot] += 1;
+        }
+    }
+
+    pub fn add(&mut self, other: &Self) {
+        for slot in 0..NAMES.len() {
+            if self.counts[slot] == 0 {
+                self.first[slot] = other.first[slot];
+            }
+            self.counts[slot] += other.counts[slot];
+        }
+    }
+
+    /// Name, number and first place of each that is used.
+    pub fn used(&self) -> impl Iterator<Item = (&'static str, u32, Option<u32>)> {
+        let rows = NAMES.iter().zip(self.counts).zip(self.first);
+        rows.filter(|((_, count), _)| *count > 0).map(|((&name, count), first)| (name, count, first))
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.counts.iter().all(|&count| count == 0)
+    }
+
+    /// Whether some element is used more often than in `before`.
+    pub fn exceeds(&self, before: &Self) -> bool {
+        self.counts.iter().zip(before.counts).any(|(&now, then)| now > then)
+    }
+}

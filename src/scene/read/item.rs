@@ -1,0 +1,58 @@
+//! What one body or force element means by itself, kept with the element.
+
+use super::feature::FeatureCounts;
+use super::log::{Log, Problem};
+use super::{body, cosmetic, force};
+use crate::scene::tree::View;
+use crate::scene::{Body, Force};
+
+#[derive(Clone, Debug)]
+pub(in crate::scene) struct ItemReading {
+    /// With the `UserID` of the file or 0, and without label: they depend on the other elements.
+    pub item: Item,
+    pub id: Option<i64>,
+    /// Paths begin below the element.
+    pub problems: Vec<Problem>,
+    pub features: FeatureCounts,
+}
+
+#[derive(Clone, Debug)]
+pub(in crate::scene) enum Item {
+    Body(Body),
+    Force(Force),
+    /// An element that is neither.
+    Unknown,
+}
+
+impl ItemReading {
+    /// Reads a child of `Primitives`.
+    pub fn of_body(el: View<'_>) -> Self {
+        Self::of(el, &body::BODIES, |el, log, cosmetics, features| {
+            Item::Body(body::read(el, log, cosmetics, features))
+        })
+    }
+
+    /// Reads a child of `Forces`.
+    pub fn of_force(el: View<'_>) -> Self {
+        Self::of(el, &force::FORCES, |el, log, cosmetics, _| Item::Force(force::read(el, log, cosmetics)))
+    }
+
+    fn of<'a>(
+        el: View<'a>,
+        known: &[&str],
+        read: impl FnOnce(View<'a>, &mut Log<'a>, cosmetic::Cosmetics, &mut FeatureCounts) -> Item,
+    ) -> Self {
+        let mut log = Log::default();
+        let mut features = FeatureCounts::default();
+        if !known.contains(&el.name()) {
+            log.unknown_element(el, known);
+            return Self { item: Item::Unknown, id: None, problems: log.problems, features };
+        }
+        features.note(el.name(), el.place());
+        log.check_attributes(el, &["UserID"]);
+        let id = log.user_id(el);
+        let cosmetics = cosmetic::read(el, &mut log);
+        let item = read(el, &mut log, cosmetics, &mut features);
+        Self { item, id, problems: log.problems, features }
+    }
+}

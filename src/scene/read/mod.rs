@@ -1,0 +1,19 @@
+//! From the tree to what it means: the typed scene, every problem, and the uses of format 1.1.
+//! One file per family of elements; `item.rs` and `scene.rs` put their results together.
+
+mod body;
+mod cosmetic;
+mod feature;
+mod force;
+mod item;
+mod log;
+mod map;
+mod scene;
+mod shape;
+mod simulation;
+
+pub(super) use body::{BODY_ORDER, SHAPES};
+pub(super) use cosmetic::{TARGET as COSMETIC_TARGET, parse_color};
+pub(super) use feature::{FeatureCounts, feature_names};
+pub(super) use item::ItemReading;
+pub(super) use scene::{Meaning, read};

@@ -1,0 +1,52 @@
+//! From the tree back to text, and the text of what is new.
+
+use super::NumberStyle;
+use super::tree::{Child, Children, Element};
+
+/// The text of a list of children.
+pub(super) fn children(children: &Children, source: &str) -> String {
+    let mut out = String::with_capacity(source.len() + 256);
+    append(children, source, &mut out);
+    out
+}
+
+/// Appends the text of one element.
+pub(super) fn element(element: &Element, source: &str, out: &mut String) {
+    out.push_str(element.open.get(source));
+    append(&element.children, source, out);
+    out.push_str(element.close.get(source));
+}
+
+fn append(children: &Children, source: &str, out: &mut String) {
+    for child in children.iter() {
+        match child {
+            Child::Element(el) => element(el, source, out),
+            Child::Raw(text) => out.push_str(text.get(source)),
+        }
+    }
+}
+
+/// A file without bodies and forces. Its time speed shows the number style, so that it survives saving.
+pub(super) fn new_file(style: NumberStyle) -> String {
+    let time_speed = match style {
+        NumberStyle::Comma => "1,0",
+        NumberStyle::Point => "1.0",
+    };
+    format!(
+        r#"<?xml version="1.0" encoding="utf-8"?>
+<PolyPhysicsXml Version="1.0">
+  <Map>
+    <Size X="10" Y="10" Z="10" />
+    <Tiles X="10" Y="10" Z="10" />
+  </Map>
+  <Simulation>
+    <TimeSpeed F32="{time_speed}" />
+    <Forces>
+    </Forces>
+  </Simulation>
+  <Primitives>
+  </Primitives>
+</PolyPhysicsXml>
+"#
+    )
+}
