@@ -38,7 +38,7 @@ impl CliError {
         Self::Usage(format!(
             "the editor can't open a window: {reason}\n\
              Without a display, simulate a scene with `polyscene run SCENE --dt S --until S` and draw it \
-             with `polyscene render SCENE`."
+             with `polyscene render SCENE --out PICTURE.png`."
         ))
     }
 

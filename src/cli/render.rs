@@ -1,14 +1,16 @@
 //! `polyscene render`: a picture of a scene without a window, a display or a GPU.
 
+use std::io::Cursor;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
+use image::{ImageFormat, RgbaImage};
 
 use super::{CliError, input, number};
 use crate::record::{BodyFrame, EventRow, Frame};
 use crate::render::{Offscreen, RenderError, Tile, render_picture};
-use crate::scene::Scene;
+use crate::scene::{Scene, write_atomically};
 use crate::sim::{BodyRef, Event, Fault, Simulation};
 use crate::view::{
     Align, Camera, DrawList, Label, OVERLAYS, OverlaySet, Theme, VIEWS, ViewInput, ViewPreset, Viewport,
@@ -98,9 +100,17 @@ pub(super) fn render(args: &RenderArgs) -> Result<(), CliError> {
     let [r, g, b, _] = args.theme().palette().map_box.0;
     let picture = render_picture(&mut offscreen, args.size, [r, g, b, 255], &tiles)
         .map_err(|error| unusable(&error))?;
+    write_png(&picture, args)
+}
+
+/// Replaces the file in one go, so that nobody sees a part of a picture.
+fn write_png(picture: &RgbaImage, args: &RenderArgs) -> Result<(), CliError> {
+    let mut bytes = Cursor::new(Vec::new());
     picture
-        .save_with_format(&args.out, image::ImageFormat::Png)
-        .map_err(|error| CliError::Usage(format!("can't write {}: {error}", args.out.display())))
+        .write_to(&mut bytes, ImageFormat::Png)
+        .map_err(|error| CliError::Usage(format!("can't make a PNG: {error}")))?;
+    write_atomically(&args.out, bytes.get_ref())
+        .map_err(|error| CliError::unwritable(args.out.display(), &error))
 }
 
 fn unusable(error: &RenderError) -> CliError {

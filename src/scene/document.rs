@@ -133,7 +133,7 @@ impl Document {
 
     /// Writes the file atomically: temporary file beside it, sync, rename.
     pub fn save(&self, path: &Path) -> io::Result<()> {
-        save::atomically(path, &self.to_bytes())
+        save::write_atomically(path, &self.to_bytes())
     }
 
     /// Drops the typed scene, which is made again when it is asked for: for documents that wait in an

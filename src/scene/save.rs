@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// Writes a file: a temporary one beside it, synced, then renamed over it. A link is followed, the
 /// permissions of an existing file are kept, and a write-protected file is refused.
-pub(super) fn atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let target = follow_links(path)?;
     let existing = match fs::metadata(&target) {
         Ok(metadata) => Some(metadata),

@@ -21,11 +21,10 @@ pub enum Ending {
 pub fn drive(
     sim: &mut Simulation,
     grid: &SampleGrid,
-    every: u64,
     recorder: &mut Recorder,
     stop: &AtomicBool,
 ) -> Result<Ending, CliError> {
-    recorder.sample(sim)?;
+    recorder.sample(sim, 0)?;
     for step in 1..=grid.steps {
         sim.begin(grid.time(step));
         loop {
@@ -41,9 +40,7 @@ pub fn drive(
         if let Err(fault) = sim.finish(&mut |_, _| {}) {
             return Ok(Ending::Faulted(fault));
         }
-        if step % every == 0 || step == grid.steps {
-            recorder.sample(sim)?;
-        }
+        recorder.sample(sim, step)?;
         if let Some(ending) = reason_to_stop(sim, recorder, stop)? {
             return Ok(ending);
         }

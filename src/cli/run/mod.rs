@@ -98,7 +98,7 @@ pub(super) fn run(args: &RunArgs) -> Result<(), CliError> {
     let stop = interrupt::on_interrupt();
     let mut recorder = Recorder::create(args, &grid)?;
     let started = Instant::now();
-    let ending = drive::drive(&mut sim, &grid, args.every, &mut recorder, stop)?;
+    let ending = drive::drive(&mut sim, &grid, &mut recorder, stop)?;
     let wall_s = started.elapsed().as_secs_f64();
     recorder.close()?;
 
@@ -165,14 +165,20 @@ fn examples() -> &'static str {
 fn long_help() -> String {
     let kinds: String =
         EventKind::ALL.iter().map(|kind| format!("  {:<14} {}\n", kind.name(), kind.meaning())).collect();
-    format!(
-        "States: {{\"t\":0.5,\"bodies\":[{{\"id\":\"7\",\"x\":[..],\"v\":[..],\"state\":\"flight\"}}]}}, one row at \
-         t = 0, after every N-th Δt and at the end; state is flight, rest or slide.\n\n\
-         Events: {{\"seq\":1,\"t\":0.1,\"kind\":\"impact\",\"a\":\"7\",\"b\":\"9\",\"point\":[..],\"normal\":[..],\
-         \"impulse\":1.0,\"vn_before\":-2.0,\"vn_after\":2.0,\"group\":1,\"dt_index\":12}}, one row per contact; \
-         a has the smaller UserID, the normal points from a to b; b is null for events of one body. Ids are \
-         UserIDs; the k-th body of a repeated UserID is called UserID#k.\n\n\
-         Kinds of events:\n{kinds}\n{}",
-        examples()
-    )
+    format!("{ROWS}\n\nKinds of events:\n{kinds}\n{}", examples())
 }
+
+const ROWS: &str = "\
+States, one row at t = 0, after every N-th Δt and at the end:
+  {\"t\":0.5,\"bodies\":[{\"id\":\"7\",\"x\":[..],\"v\":[..],\"state\":\"flight\"}]}
+  t in s, x in m, v in m/s; state is flight, rest or slide
+
+Events, one row per contact:
+  {\"seq\":1,\"t\":0.1,\"kind\":\"impact\",\"a\":\"7\",\"b\":\"9\",\"point\":[..],\"normal\":[..],
+   \"impulse\":1.0,\"vn_before\":-2.0,\"vn_after\":2.0,\"group\":1,\"dt_index\":12}
+  a has the smaller UserID; b is null for an event of one body
+  point is on the surfaces, in m; normal is the unit vector from a to b
+  impulse is in N·s; vn is the speed of b against a along normal, in m/s
+  rows of one group were resolved together; dt_index is the Δt, from 1
+
+Ids are UserIDs; the k-th body of a repeated UserID is called UserID#k.";

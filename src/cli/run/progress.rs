@@ -32,14 +32,21 @@ impl Progress {
         if !self.wanted || self.started.elapsed() < LONG {
             return;
         }
+        let elapsed = self.started.elapsed().as_secs_f64();
+        let part = (sim.time() / self.until).clamp(1e-9, 1.0);
         let bar = self.bar.get_or_insert_with(|| {
-            let style = ProgressStyle::with_template("{bar:32} {percent:>3} %  {msg}  {eta} left");
-            ProgressBar::new(PARTS as u64)
-                .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
-                .with_elapsed(self.started.elapsed())
+            let style = ProgressStyle::with_template("{bar:32} {percent:>3} %  {msg}");
+            let style = style.unwrap_or_else(|_| ProgressStyle::default_bar());
+            ProgressBar::new(PARTS as u64).with_style(style).with_position((part * PARTS) as u64)
         });
-        bar.set_position((sim.time() / self.until * PARTS) as u64);
-        bar.set_message(format!("t = {:.3} s, {} events", sim.time(), sim.counters().total_events()));
+        // The last second tells little about the next: the share done so far is the better guess.
+        bar.set_message(format!(
+            "t = {:.3} s, {} events, about {:.0} s left",
+            sim.time(),
+            sim.counters().total_events(),
+            elapsed / part - elapsed
+        ));
+        bar.set_position((part * PARTS) as u64);
     }
 
     pub fn clear(&mut self) {

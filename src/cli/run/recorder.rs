@@ -12,12 +12,19 @@ use crate::sim::{Event, Simulation};
 /// Rows reach their readers, and the bar moves, this often.
 const TICK: Duration = Duration::from_millis(100);
 
+/// Looking for overlaps costs more than a quiet Δt, so a run does it about this often.
+const OVERLAP_LOOKS: u64 = 1000;
+
 pub struct Recorder {
     states: Option<LineSink>,
     events: Option<LineSink>,
     progress: Progress,
     last_tick: Instant,
     max_overlap: f64,
+    /// States are written, and the worst overlap is looked for, every so many Δt and at the end.
+    states_every: u64,
+    overlap_every: u64,
+    last_step: u64,
     /// Whether the run has a purpose besides the rows.
     has_other_purpose: bool,
 }
@@ -36,15 +43,21 @@ impl Recorder {
             progress: Progress::new(grid.until, args.writes_to_stdout()),
             last_tick: Instant::now(),
             max_overlap: 0.0,
+            states_every: args.every,
+            overlap_every: grid.steps.div_ceil(OVERLAP_LOOKS),
+            last_step: grid.steps,
         })
     }
 
-    /// Takes down the state now.
-    pub fn sample(&mut self, sim: &Simulation) -> Result<(), CliError> {
-        self.max_overlap = self.max_overlap.max(sim.worst_overlap());
+    /// Takes down the state after the `step`-th Δt (0 at the start), where it is wanted.
+    pub fn sample(&mut self, sim: &Simulation, step: u64) -> Result<(), CliError> {
+        let is_last = step == self.last_step;
+        if is_last || step.is_multiple_of(self.overlap_every) {
+            self.max_overlap = self.max_overlap.max(sim.worst_overlap());
+        }
         match &mut self.states {
-            Some(sink) => sink.row(&StateRow::new(sim)),
-            None => Ok(()),
+            Some(sink) if is_last || step.is_multiple_of(self.states_every) => sink.row(&StateRow::new(sim)),
+            _ => Ok(()),
         }
     }
 

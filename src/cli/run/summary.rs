@@ -25,7 +25,7 @@ pub struct Summary<'a> {
     wall_s: f64,
     energy: EnergyReport,
     momentum: MomentumReport,
-    /// m, the deepest at any sample taken.
+    /// m, the deepest at any sample that was looked at.
     max_overlap: f64,
     /// FNV-1a of the last state's bits, in hexadecimal.
     hash: String,
@@ -129,25 +129,24 @@ impl<'a> Summary<'a> {
     }
 
     fn for_people(&self, scene: &str, method: &str) -> String {
-        let total: u64 = self.events.0.iter().sum();
-        let mut text =
-            format!("{scene}: {} s in {} steps of {} s, method {method}\n", self.t, self.steps, self.dt);
+        let (t, dt) = (short(self.t), short(self.dt));
+        let mut text = format!("{scene}: {t} s, {} steps of {dt} s, method {method}\n", self.steps);
         if let Some(stopped) = &self.stopped {
             line(&mut text, "stopped", stopped);
         }
+        let total: u64 = self.events.0.iter().sum();
         line(&mut text, "events", &format!("{total}{}", self.kinds()));
         line(&mut text, "energy", &self.energy.for_people());
-        let [px, py, pz] = self.momentum.value;
-        let residual = self.momentum.residual;
-        line(&mut text, "momentum", &format!("({px:.6}, {py:.6}, {pz:.6}) kg·m/s, residual {residual:.1e}"));
-        line(&mut text, "overlap", &format!("at most {:.1e} m at a sample", self.max_overlap));
+        let [x, y, z] = self.momentum.value.map(short);
+        let residual = small(self.momentum.residual);
+        line(&mut text, "momentum", &format!("({x}, {y}, {z}) kg·m/s; residual {residual}"));
+        line(&mut text, "overlap", &format!("at most {} m at a sample", small(self.max_overlap)));
         line(&mut text, "plan", &self.plan.for_people());
         for (nth, what) in self.plan.left_out.iter().enumerate() {
             line(&mut text, if nth == 0 { "left out" } else { "" }, what);
         }
-        let (speed, rate) = (self.t / self.wall_s, total as f64 / self.wall_s);
-        let speed = format!("{:.3} s, {speed:.1} times real time, {rate:.0} events/s", self.wall_s);
-        line(&mut text, "speed", &speed);
+        let (speed, rate) = (rounded(self.t / self.wall_s, 3), rounded(total as f64 / self.wall_s, 3));
+        line(&mut text, "speed", &format!("{:.3} s, {speed} times real time, {rate} events/s", self.wall_s));
         line(&mut text, "hash", &self.hash);
         text
     }
@@ -164,9 +163,10 @@ impl EnergyReport {
     fn for_people(&self) -> String {
         let Self { kinetic, potential, total, residual } = *self;
         let (Some(potential), Some(total), Some(residual)) = (potential, total, residual) else {
-            return format!("{kinetic:.6} J kinetic; a force has no potential, so no total");
+            return format!("{} J kinetic; a force has no potential, so there is no total", short(kinetic));
         };
-        format!("{total:.6} J = {kinetic:.6} kinetic + {potential:.6} potential, residual {residual:.1e}")
+        let (total, kinetic, potential) = (short(total), short(kinetic), short(potential));
+        format!("{total} J: {kinetic} kinetic, {potential} potential; residual {}", small(residual))
     }
 }
 
@@ -198,6 +198,28 @@ fn plan_report(plan: &Plan) -> PlanReport<'_> {
         lasting_contact: plan.lasting_contact,
         left_out: &plan.left_out,
     }
+}
+
+/// Six significant digits, for people.
+fn short(value: f64) -> String {
+    rounded(value, 6)
+}
+
+fn rounded(value: f64, digits: i32) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{value:.0}");
+    }
+    let exponent = libm::log10(value.abs()).floor() as i32;
+    if !(-4..9).contains(&exponent) {
+        return format!("{value:.*e}", digits as usize - 1);
+    }
+    let text = format!("{value:.*}", (digits - 1 - exponent).max(0) as usize);
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').into() } else { text }
+}
+
+/// Residuals and overlaps: their size is what matters.
+fn small(value: f64) -> String {
+    if value == 0.0 { "0".into() } else { format!("{value:.1e}") }
 }
 
 fn line(text: &mut String, label: &str, value: &str) {
