@@ -16,6 +16,17 @@ const LAYERS: [(&str, &[&str]); 9] = [
     ("cli", &["scene", "sim", "record", "study", "view", "render"]),
 ];
 
+/// What a layer must not name, because it knows nothing of it.
+const STRANGERS: [(&str, &[&str]); 7] = [
+    ("scene", &["std::time", "egui", "glow", "three_d", "clap"]),
+    ("sim", &["std::time", "std::fs", "egui", "glow", "three_d", "clap"]),
+    ("record", &["egui", "glow", "three_d", "clap"]),
+    ("view", &["egui", "glow", "three_d", "clap"]),
+    ("render", &["egui", "clap"]),
+    ("editor", &["egui", "glow", "three_d", "clap"]),
+    ("cli", &["egui", "glow", "three_d"]),
+];
+
 const MAX_FILE_LINES: usize = 500;
 const MAX_FN_LINES: usize = 60;
 /// Panels are long lists of widgets; splitting them further hides the order on the screen.
@@ -59,6 +70,20 @@ fn the_scan_sees_every_way_to_name_a_layer() {
     for (text, expected) in cases {
         assert_eq!(imported_layers(text, 2), expected, "in `{text}`");
     }
+}
+
+#[test]
+fn layers_name_nothing_they_know_nothing_of() {
+    let mut problems = Vec::new();
+    for (layer, strangers) in STRANGERS {
+        for file in rust_files(&format!("src/{layer}")) {
+            let code = without_comments(&read(&file));
+            for stranger in strangers.iter().filter(|stranger| code.contains(**stranger)) {
+                problems.push(format!("{}: {layer} knows nothing of {stranger}", file.display()));
+            }
+        }
+    }
+    assert!(problems.is_empty(), "{}", problems.join("\n"));
 }
 
 #[test]
@@ -111,8 +136,7 @@ fn module_path(file: &Path) -> Option<Vec<String>> {
 
 /// The layers that a file names, by `crate::` or by enough `super::` to reach the crate's root.
 fn imported_layers(text: &str, module_depth: usize) -> Vec<String> {
-    let code: String =
-        text.lines().filter(|line| !line.trim_start().starts_with("//")).collect::<Vec<_>>().join("\n");
+    let code = without_comments(text);
     let to_root = "super::".repeat(module_depth);
     let mut found = Vec::new();
     for prefix in ["crate::", &to_root] {
@@ -122,6 +146,10 @@ fn imported_layers(text: &str, module_depth: usize) -> Vec<String> {
     }
     found.retain(|name| LAYERS.iter().any(|(layer, _)| layer == name));
     found
+}
+
+fn without_comments(text: &str) -> String {
+    text.lines().filter(|line| !line.trim_start().starts_with("//")).collect::<Vec<_>>().join("\n")
 }
 
 /// First names of the path, or of each path of the `{…}` group, that `text` starts with.
