@@ -9,6 +9,7 @@ mod passes;
 mod picture;
 mod programs;
 mod renderer;
+mod stand_in;
 mod text;
 mod view_target;
 

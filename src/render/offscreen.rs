@@ -9,13 +9,15 @@ use glutin::context::{ContextApi, ContextAttributesBuilder, GlProfile, Version};
 use glutin::prelude::*;
 
 use super::gl::Gl;
+use super::stand_in::StandIn;
 use super::{RenderError, Renderer, draw_labels};
 use crate::view::DrawList;
 
 /// A windowless context, current on the thread that made it, and a renderer in it.
 pub struct Offscreen {
-    // First: its objects must be deleted while the context lives.
+    // First: their objects must be deleted while the context lives.
     renderer: Renderer,
+    window: StandIn,
     gl: Arc<glow::Context>,
     _context: PossiblyCurrentContext,
     _display: Display,
@@ -52,7 +54,8 @@ impl Offscreen {
             let gl = glow::Context::from_loader_function_cstr(|name| display.get_proc_address(name));
             let gl = Arc::new(gl);
             let renderer = Renderer::new(Arc::clone(&gl))?;
-            Ok(Self { renderer, gl, _context: context, _display: display })
+            let window = StandIn::new(Gl(Arc::clone(&gl)))?;
+            Ok(Self { renderer, window, gl, _context: context, _display: display })
         }
     }
 
@@ -65,15 +68,32 @@ impl Offscreen {
         Gl(Arc::clone(&self.gl)).device_name()
     }
 
+    /// Binds a framebuffer of that size in place of a window's, for what expects to draw into one.
+    pub fn bind_window(&mut self, size: [u32; 2]) -> Result<(), RenderError> {
+        self.window.bind(size)
+    }
+
+    /// What was drawn since into the framebuffer of [`Self::bind_window`].
+    pub fn read_window(&self) -> Result<image::RgbaImage, RenderError> {
+        let (size, bytes) = self.window.read();
+        let mut picture = to_picture(size, bytes)?;
+        image::imageops::flip_vertical_in_place(&mut picture);
+        Ok(picture)
+    }
+
     /// The picture of a list at its viewport's size, labels included.
     pub fn render(&mut self, list: &DrawList) -> Result<image::RgbaImage, RenderError> {
         let viewport = list.viewport;
         let side = |points: f64| (points * viewport.pixels_per_point).round().clamp(1.0, 65_536.0) as u32;
         let size = [side(viewport.width), side(viewport.height)];
         let bytes = self.renderer.read(list, size)?;
-        let mut picture = image::RgbaImage::from_raw(size[0], size[1], bytes)
-            .ok_or_else(|| RenderError::Gl("the picture came back incomplete".to_owned()))?;
+        let mut picture = to_picture(size, bytes)?;
         draw_labels(&mut picture, list)?;
         Ok(picture)
     }
+}
+
+fn to_picture([width, height]: [u32; 2], bytes: Vec<u8>) -> Result<image::RgbaImage, RenderError> {
+    image::RgbaImage::from_raw(width, height, bytes)
+        .ok_or_else(|| RenderError::Gl("the picture came back incomplete".to_owned()))
 }

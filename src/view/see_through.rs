@@ -1,8 +1,8 @@
 //! See-through walls: a plate that stands between the eye and the scene is drawn as glass and not picked,
 //! so that a closed box shows its inside from everywhere.
 //!
-//! A *wall* is a plate with the whole scene on one side of it: all corners of the map, or the centres of
-//! all other bodies. Plates inside the scene are no walls and stay solid.
+//! A *wall* is a plate with the whole scene on one side of it: the centres of all other bodies, or, for a
+//! plate at the map's border, the map. Plates inside the scene are no walls and stay solid.
 
 use glam::DVec3;
 
@@ -14,12 +14,15 @@ use crate::scene::{Body, NodeKey, Shape, rotation_matrix};
 /// files write rotations with six digits.
 const TOLERANCE: f64 = 1e-3;
 
+/// Sine of the angle below which a wall is seen edge-on: it hides nothing then, and must not flicker.
+const EDGE_ON: f64 = 1e-4;
+
 /// At most this many bodies vote, so that a scene of 100 000 plates stays quick.
 const VOTERS: usize = 96;
 
 /// What the scene's extent says about walls.
 pub(super) struct Walls {
-    map_corners: [DVec3; 8],
+    map: Bounds,
     centers: Vec<DVec3>,
     tolerance: f64,
 }
@@ -28,17 +31,22 @@ impl Walls {
     pub fn new(map: Bounds, bodies: &[Posed<'_>]) -> Self {
         let stride = bodies.len().div_ceil(VOTERS).max(1);
         let centers = bodies.iter().step_by(stride).map(|posed| posed.position).collect();
-        Self { map_corners: map.corners(), centers, tolerance: TOLERANCE * map.size().length() }
+        Self { map, centers, tolerance: TOLERANCE * map.size().length() }
     }
 
     /// The unit normal of a wall towards the scene; `None` for a body that is no wall.
     pub fn inward(&self, body: &Body, position: DVec3) -> Option<DVec3> {
         let Shape::Plane { .. } = body.shape else { return None };
         let normal = rotation_matrix(body.rotation).z_axis;
-        let side = self
-            .one_side(&self.map_corners, position, normal)
-            .or_else(|| self.one_side(&self.centers, position, normal))?;
+        let side = self.one_side(&self.centers, position, normal).or_else(|| {
+            self.is_in_map(position).then(|| self.one_side(&self.map.corners(), position, normal))?
+        })?;
         Some(normal * side)
+    }
+
+    fn is_in_map(&self, position: DVec3) -> bool {
+        let margin = DVec3::splat(self.tolerance);
+        position.cmpge(self.map.min - margin).all() && position.cmple(self.map.max + margin).all()
     }
 
     /// +1 or −1: the side on which all points lie; `None` if they lie on both or in the plane.
@@ -60,8 +68,7 @@ impl Walls {
 pub(super) fn is_between(inward: DVec3, position: DVec3, camera: &Camera) -> bool {
     match camera.projection {
         Projection::Perspective => (camera.eye() - position).dot(inward) < 0.0,
-        // Seen edge-on a wall hides nothing; rounding must not make it flicker.
-        Projection::Orthographic => camera.backward().dot(inward) < -1e-6,
+        Projection::Orthographic => camera.backward().dot(inward) < -EDGE_ON,
     }
 }
 

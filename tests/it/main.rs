@@ -11,6 +11,19 @@
 
 // The rules of the source tree: layers, file sizes, function sizes.
 mod layering;
-
+// Pictures drawn in software without a window: silhouettes against their areas, depth order, caching.
+mod render_pictures;
 // The reader: values, defaults, labels, places.
 mod scene_read;
+// Cameras: rays against projections, framing, zoom to the cursor, the six axis views.
+mod view_camera;
+// Dragging and snapping, round lengths and short numbers, trails.
+mod view_drag;
+// Draw lists: what is in them, precision far from the origin, overlays, when they are built anew.
+mod view_draw_list;
+// Picking against brute force; what is hidden or see-through is passed over.
+mod view_pick;
+// Scenes that the tests of views and pictures share.
+mod view_scenes;
+// Which walls of a closed box are glass, from everywhere.
+mod view_see_through;

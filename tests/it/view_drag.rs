@@ -1,0 +1,114 @@
+//! Dragging and snapping, round lengths and short numbers, trails.
+
+use glam::{DVec2, DVec3, dvec2, dvec3};
+use polyscene::view::{
+    Axis, Camera, Projection, Trails, Viewport, drag_along_axis, drag_in_plane, gizmo_handles, number, snap,
+    snap_step, with_unit,
+};
+
+use crate::view_scenes::frame;
+
+const ASPECT: f64 = 1.5;
+
+fn cameras() -> [Camera; 4] {
+    let perspective = Camera::default();
+    let ortho = Camera { projection: Projection::Orthographic, ..perspective };
+    let top = Camera { pitch: std::f64::consts::FRAC_PI_2, ..ortho };
+    let far = Camera { target: dvec3(1e5, 1e5, -1e5), ..ortho };
+    [perspective, ortho, top, far]
+}
+
+#[test]
+fn a_body_dragged_in_the_view_stays_under_the_pointer() {
+    for camera in cameras() {
+        let grabbed = camera.target + dvec3(1.0, -2.0, 0.5);
+        let from = camera.project(grabbed, ASPECT).unwrap().truncate();
+        let to = from + dvec2(0.2, -0.1);
+        let moved = drag_in_plane(&camera, ASPECT, grabbed, from, to);
+        assert!(moved.dot(camera.backward()).abs() < 1e-9, "left the plane of the view");
+        let seen = camera.project(grabbed + moved, ASPECT).unwrap().truncate();
+        assert!(seen.distance(to) < 1e-9, "{camera:?}: {seen} instead of {to}");
+    }
+}
+
+#[test]
+fn a_body_dragged_along_an_axis_follows_the_pointers_part_along_it() {
+    for camera in cameras() {
+        let grabbed = camera.target + dvec3(0.3, 0.2, -0.4);
+        for axis in Axis::ALL {
+            let seen = |s: f64| camera.project(grabbed + axis.unit() * s, ASPECT).unwrap().truncate();
+            if seen(0.0).distance(seen(1.0)) < 1e-3 {
+                continue;
+            }
+            let moved = drag_along_axis(&camera, ASPECT, grabbed, axis, seen(0.0), seen(1.7));
+            assert!((moved - 1.7).abs() < 1e-8, "{camera:?} {axis:?}: {moved}");
+        }
+    }
+}
+
+#[test]
+fn an_axis_seen_end_on_has_no_handle_and_can_not_be_dragged() {
+    let [_, _, top, _] = cameras();
+    let handles = gizmo_handles(&top, Viewport::new(600.0, 400.0, 1.0), top.target);
+    assert_eq!(handles.iter().map(|handle| handle.axis).collect::<Vec<_>>(), [Axis::X, Axis::Z]);
+    let moved = drag_along_axis(&top, ASPECT, top.target, Axis::Y, DVec2::ZERO, dvec2(0.3, 0.2));
+    assert!(moved.is_finite());
+}
+
+#[test]
+fn snapping_gives_the_numbers_a_person_would_type() {
+    assert_eq!(snap(dvec3(0.26, -1.449, 7.0), 0.1), dvec3(0.3, -1.4, 7.0));
+    assert_eq!(snap(dvec3(1.3, 2.6, -3.9), 0.5), dvec3(1.5, 2.5, -4.0));
+    assert_eq!(snap(dvec3(7.4, 12.6, -2.6), 5.0), dvec3(5.0, 15.0, -5.0));
+    let free = dvec3(0.123, 4.567, 8.9);
+    for step in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert_eq!(snap(free, step), free);
+    }
+}
+
+#[test]
+fn the_snapping_step_suits_the_magnification() {
+    let viewport = Viewport::new(600.0, 400.0, 1.0);
+    for height in [1e-3, 0.7, 10.0, 5e4] {
+        let camera = Camera { height, ..Camera::default() };
+        let step = snap_step(&camera, viewport);
+        let points = step / camera.world_per_pixel(viewport.height);
+        assert!((4.0..=12.5).contains(&points), "{height}: {step} is {points} points");
+    }
+}
+
+#[test]
+fn lengths_have_the_unit_that_keeps_them_short() {
+    let cases = [(1.0, "1 m"), (0.2, "20 cm"), (0.005, "5 mm"), (5e3, "5 km"), (2e-6, "2 µm"), (0.0, "0 µm")];
+    for (metres, text) in cases {
+        assert_eq!(with_unit(metres), text);
+    }
+    assert_eq!(number(-0.0001, 2), "0");
+    assert_eq!(number(1.5, 3), "1.5");
+    assert_eq!(number(100.0, 3), "100");
+}
+
+#[test]
+fn trails_follow_and_start_anew_when_time_goes_back() {
+    let mut trails = Trails::default();
+    let mut now = frame();
+    let key = now.bodies[0].key;
+    for i in 0..300 {
+        now.time = f64::from(i);
+        now.bodies[0].position = DVec3::splat(f64::from(i));
+        trails.push(&now);
+    }
+    let points = &trails.get(key).unwrap().points;
+    assert!(points.len() > 50 && points.len() < 300, "short: {}", points.len());
+    assert_eq!(points.back(), Some(&DVec3::splat(299.0)));
+    let revision = trails.revision();
+    trails.push(&now);
+    assert_eq!(trails.revision(), revision, "nothing new");
+    now.time = 4.0;
+    trails.push(&now);
+    assert_eq!(trails.get(key).unwrap().points.len(), 1);
+    now.time = 5.0;
+    now.bodies.remove(0);
+    trails.push(&now);
+    assert!(trails.get(key).is_none(), "the body is gone");
+}
