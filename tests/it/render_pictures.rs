@@ -33,7 +33,7 @@ fn picture(scene: &Scene, camera: Camera) -> RgbaImage {
 
 /// Pixels of a reddish (channel 0) or greenish (channel 1) colour. Furniture is left out.
 fn area(picture: &RgbaImage, channel: usize) -> f64 {
-    let corner = |x: u32, y: u32| y > 300 && (x < 100 || x > 250);
+    let corner = |x: u32, y: u32| y > 300 && !(100..=250).contains(&x);
     let strong = |p: &image::Rgba<u8>| f64::from(p.0[channel]) > 1.6 * f64::from(p.0[1 - channel]);
     picture.enumerate_pixels().filter(|(x, y, p)| !corner(*x, *y) && strong(p)).count() as f64
 }
@@ -178,7 +178,7 @@ fn scaled(scale: f64) -> Scene {
             polyscene::scene::Shape::Plane { half_x, half_y } => {
                 polyscene::scene::Shape::Plane { half_x: half_x * scale, half_y: half_y * scale }
             }
-            ref other => other.clone(),
+            ref other @ polyscene::scene::Shape::Unbuilt { .. } => other.clone(),
         };
     }
     scene
