@@ -1,7 +1,10 @@
 //! Axis-aligned boxes around what is to be seen.
 
 use glam::DVec3;
+use rustc_hash::FxHashSet;
 
+use super::stage::Stage;
+use super::{ViewInput, forces};
 use crate::scene::{Body, NodeKey, Scene, Shape, rotation_matrix};
 
 /// An axis-aligned box in world coordinates, m.
@@ -58,24 +61,26 @@ pub(super) fn body_bounds(body: &Body, position: DVec3) -> Bounds {
 }
 
 /// What "frame all" shows: the map and every visible body, or only the bodies named by `keys`.
-pub fn scene_bounds(input: &super::ViewInput<'_>, keys: Option<&[NodeKey]>) -> Bounds {
-    let stage = super::stage::Stage::new(input);
+pub fn scene_bounds(input: &ViewInput<'_>, keys: Option<&[NodeKey]>) -> Bounds {
+    let stage = Stage::new(input);
+    let keys: Option<FxHashSet<NodeKey>> = keys.map(|keys| keys.iter().copied().collect());
+    let is_meant = |key: NodeKey| keys.as_ref().is_none_or(|keys| keys.contains(&key));
     let bodies = stage
         .bodies
         .iter()
-        .filter(|posed| keys.is_none_or(|keys| keys.contains(&posed.body.key)))
+        .filter(|posed| is_meant(posed.body.key))
         .map(|posed| body_bounds(posed.body, posed.position));
     let forces = input
         .scene
         .forces
         .iter()
-        .filter(|force| keys.is_some_and(|keys| keys.contains(&force.key)))
-        .filter_map(|force| super::forces::place(&force.kind))
+        .filter(|force| keys.is_some() && is_meant(force.key))
+        .filter_map(|force| forces::place(&force.kind))
         .map(|place| {
             Bounds::around(place, DVec3::splat(0.05 * map_bounds(input.scene).size().max_element()))
         });
     let all = bodies.chain(forces).reduce(Bounds::union);
-    match (keys, all) {
+    match (&keys, all) {
         (Some(_), Some(bounds)) => bounds,
         (None, Some(bounds)) => bounds.union(map_bounds(input.scene)),
         (_, None) => map_bounds(input.scene),

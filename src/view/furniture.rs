@@ -87,7 +87,7 @@ pub(super) fn legend(stage: &Stage<'_>, list: &mut DrawList) {
             color: *color,
             size: 12.0,
             align: Align::RightBottom,
-            back: Color::NONE,
+            back: stage.palette.label_back,
         });
     }
 }

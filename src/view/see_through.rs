@@ -1,8 +1,8 @@
 //! See-through walls: a plate that stands between the eye and the scene is drawn as glass and not picked,
 //! so that a closed box shows its inside from everywhere.
 //!
-//! A *wall* is a plate with the whole scene on one side of it: the centres of all other bodies, or, for a
-//! plate at the map's border, the map. Plates inside the scene are no walls and stay solid.
+//! A *wall* is a plate with the whole scene on one side of it: a plate at the map's border, or a large one
+//! with the centres of all other bodies on one side. Other plates hide little and stay solid.
 
 use glam::DVec3;
 
@@ -14,6 +14,9 @@ use crate::scene::{Body, NodeKey, Shape, rotation_matrix};
 /// files write rotations with six digits.
 const TOLERANCE: f64 = 1e-3;
 
+/// Half diagonal of a wall inside the map over the spread of the bodies, at least.
+const LEAST_SIZE: f64 = 0.4;
+
 /// Sine of the angle below which a wall is seen edge-on: it hides nothing then, and must not flicker.
 const EDGE_ON: f64 = 1e-4;
 
@@ -24,24 +27,29 @@ const VOTERS: usize = 96;
 pub(super) struct Walls {
     map: Bounds,
     centers: Vec<DVec3>,
+    /// Half the diagonal of the box around the centres, m.
+    spread: f64,
     tolerance: f64,
 }
 
 impl Walls {
     pub fn new(map: Bounds, bodies: &[Posed<'_>]) -> Self {
         let stride = bodies.len().div_ceil(VOTERS).max(1);
-        let centers = bodies.iter().step_by(stride).map(|posed| posed.position).collect();
-        Self { map, centers, tolerance: TOLERANCE * map.size().length() }
+        let centers: Vec<DVec3> = bodies.iter().step_by(stride).map(|posed| posed.position).collect();
+        let around = centers.iter().copied().map(Bounds::of_point).reduce(Bounds::union);
+        let spread = around.map_or(0.0, |around| 0.5 * around.size().length());
+        Self { map, centers, spread, tolerance: TOLERANCE * map.size().length() }
     }
 
     /// The unit normal of a wall towards the scene; `None` for a body that is no wall.
     pub fn inward(&self, body: &Body, position: DVec3) -> Option<DVec3> {
-        let Shape::Plane { .. } = body.shape else { return None };
+        let Shape::Plane { half_x, half_y } = body.shape else { return None };
         let normal = rotation_matrix(body.rotation).z_axis;
-        let side = self.one_side(&self.centers, position, normal).or_else(|| {
-            self.is_in_map(position).then(|| self.one_side(&self.map.corners(), position, normal))?
-        })?;
-        Some(normal * side)
+        let is_large = libm::hypot(half_x, half_y) >= LEAST_SIZE * self.spread;
+        let by_bodies = || self.one_side(&self.centers, position, normal).filter(|_| is_large);
+        let by_map =
+            || self.one_side(&self.map.corners(), position, normal).filter(|_| self.is_in_map(position));
+        by_bodies().or_else(by_map).map(|side| normal * side)
     }
 
     fn is_in_map(&self, position: DVec3) -> bool {

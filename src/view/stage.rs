@@ -1,7 +1,7 @@
 //! The scene as it stands at the moment of the picture: bodies in their places, and what every builder needs.
 
 use glam::DVec3;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::{
     Bounds, Camera, Color, DrawList, Line, Palette, ViewInput, bounds, color,
@@ -58,6 +58,7 @@ impl<'a> Stage<'a> {
         let palette = input.theme.palette();
         let now: FxHashMap<NodeKey, &BodyFrame> =
             input.frame.iter().flat_map(|frame| &frame.bodies).map(|body| (body.key, body)).collect();
+        let selection: FxHashSet<NodeKey> = input.selection.iter().copied().collect();
         let mut nth_dynamic = 0;
         let mut bodies = Vec::with_capacity(input.scene.bodies.len());
         for body in &input.scene.bodies {
@@ -68,7 +69,7 @@ impl<'a> Stage<'a> {
             if body.hidden || !position.is_finite() {
                 continue;
             }
-            let selected = input.selection.contains(&body.key);
+            let selected = selection.contains(&body.key);
             let hovered = input.hovered == Some(body.key);
             bodies.push(Posed { body, position, now, color, inward: None, selected, hovered });
         }

@@ -104,6 +104,18 @@ fn a_tilted_box_is_seen_into() {
 }
 
 #[test]
+fn a_small_plate_before_the_scene_stays_solid() {
+    let mut scene = empty();
+    scene.bodies.push(plate(1, dvec3(5.0, 5.0, 8.0), DVec3::ZERO, [0.5, 0.5]));
+    scene.bodies.push(ball(2, dvec3(2.0, 5.0, 4.0), 1.0));
+    scene.bodies.push(ball(3, dvec3(8.0, 5.0, 2.0), 1.0));
+    assert_eq!(glass(&scene, axis(AxisView::Front)), [0; 0]);
+    // The same plate as a piece of the map's front is a wall.
+    scene.bodies[0].position.z = 10.0;
+    assert_eq!(glass(&scene, axis(AxisView::Front)), [1]);
+}
+
+#[test]
 fn only_plates_are_walls() {
     let mut scene = empty();
     scene.bodies.push(ball(1, dvec3(5.0, 12.0, 5.0), 1.0));
