@@ -7,6 +7,7 @@ use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
 use super::encoding::{self, Encoding, Form};
+use super::locate::Index;
 use super::read::{self, Meaning};
 use super::rules::MAX_FILE_BYTES;
 use super::source::{Source, position_in};
@@ -23,6 +24,8 @@ pub struct Document {
     pub(super) content: Content,
     /// Read when first asked for.
     pub(super) meaning: OnceLock<Arc<Meaning>>,
+    /// Where bodies and forces stand; made when first needed.
+    pub(super) index: OnceLock<Arc<Index>>,
 }
 
 #[derive(Clone)]
@@ -145,7 +148,8 @@ impl Document {
     }
 
     pub(super) fn of_tree(source: Arc<Source>, tree: Children) -> Self {
-        Self { source, content: Content::Tree(tree), meaning: OnceLock::new() }
+        let (meaning, index) = (OnceLock::new(), OnceLock::new());
+        Self { source, content: Content::Tree(tree), meaning, index }
     }
 
     pub(super) fn meaning(&self) -> &Meaning {
@@ -157,9 +161,12 @@ impl Document {
 
     /// The elements from the root down to the one with that key; empty if there is none.
     fn chain(&self, key: NodeKey) -> Vec<View<'_>> {
-        match &self.content {
-            Content::Tree(top) => locate::chain(top, &self.source.text, key),
-            Content::Broken(_) => Vec::new(),
+        let Content::Tree(top) = &self.content else { return Vec::new() };
+        let text = &self.source.text;
+        let index = self.index.get_or_init(|| Arc::new(locate::index(top, text)));
+        match (index.get(&key), locate::root(top, text)) {
+            (Some(&(list, at)), Some(root)) => locate::item_chain(root, list, at),
+            _ => locate::chain(top, text, key),
         }
     }
 
@@ -171,6 +178,7 @@ impl Document {
             source: Arc::new(Source::new(String::new(), encoding, None)),
             content: Content::Broken(bytes.into()),
             meaning: OnceLock::from(Arc::new(meaning)),
+            index: OnceLock::new(),
         }
     }
 }

@@ -70,7 +70,7 @@ pub(super) fn decode(bytes: Vec<u8>) -> Result<Decoded, DecodeFault> {
         Form::Legacy(legacy) => decode_legacy(&bytes, legacy)?,
     };
     let contradiction = declared(&text).filter(|label| !agrees(label, form)).map(|label| {
-        format!("the declaration says {}, but the file is in {}", super::shown(&label), form.name())
+        format!("the declaration says {}, but the file is in {}", super::shown(label), form.name())
     });
     Ok(Decoded { text, encoding, contradiction })
 }
@@ -122,18 +122,17 @@ fn form_without_mark(bytes: &[u8]) -> Result<Form, DecodeFault> {
         Some(found) if found.output_encoding() == encoding_rs::UTF_8 => Ok(Form::Utf8),
         Some(found) => Ok(Form::Legacy(found)),
         None => Err(DecodeFault::at_start(
-            format!("the encoding {} is not known", super::shown(&label)),
+            format!("the encoding {} is not known", super::shown(label)),
             "save the file as UTF-8",
         )),
     }
 }
 
 /// The encoding that an XML declaration at the very start names.
-fn declared(text: &str) -> Option<Cow<'_, str>> {
-    let rest = text.strip_prefix("<?xml")?;
-    let content = &rest[..rest.find("?>")?];
-    let attr = tag::pseudo_attributes(content).flatten().find(|attr| attr.name == "encoding")?;
-    Some(Cow::Borrowed(attr.raw))
+fn declared(text: &str) -> Option<&str> {
+    let declaration = &text[..text.find("?>")? + 2];
+    let is_declaration = declaration.starts_with("<?") && tag::name(declaration) == "?xml";
+    tag::find(declaration, "encoding").filter(|_| is_declaration).map(|attr| attr.raw)
 }
 
 fn agrees(label: &str, form: Form) -> bool {

@@ -54,7 +54,8 @@ impl Ids {
         Label { id, repeat: *repeat }
     }
 
-    pub fn is_taken(&self, id: i64) -> bool {
-        self.taken.contains(&id)
+    /// The id itself, or a fresh one if something has it.
+    pub fn take(&mut self, id: i64) -> i64 {
+        if self.taken.insert(id) { id } else { self.fresh() }
     }
 }

@@ -3,8 +3,9 @@
 
 use std::sync::OnceLock;
 
+use super::edit::Style;
 use super::encoding::Encoding;
-use super::tree::Keys;
+use super::tree::{Children, Keys};
 
 #[derive(Debug)]
 pub(super) struct Source {
@@ -15,6 +16,7 @@ pub(super) struct Source {
     pub contradiction: Option<String>,
     pub keys: Keys,
     checkpoints: OnceLock<Vec<Checkpoint>>,
+    style: OnceLock<Style>,
 }
 
 /// A place in the text whose line and column are known.
@@ -30,8 +32,13 @@ const CHECKPOINT_BYTES: usize = 1024;
 
 impl Source {
     pub fn new(text: String, encoding: Encoding, contradiction: Option<String>) -> Self {
-        let (keys, checkpoints) = (Keys::starting_at(1), OnceLock::new());
-        Self { text, encoding, contradiction, keys, checkpoints }
+        let (keys, checkpoints, style) = (Keys::starting_at(1), OnceLock::new(), OnceLock::new());
+        Self { text, encoding, contradiction, keys, checkpoints, style }
+    }
+
+    /// How the document is written, found in the first of its trees that is edited.
+    pub fn style(&self, top: &Children) -> &Style {
+        self.style.get_or_init(|| Style::of(top, &self.text))
     }
 
     /// Line and column in characters, from 1, of a byte offset.

@@ -13,6 +13,8 @@
 mod layering;
 // Pictures drawn in software without a window: silhouettes against their areas, depth order, caching.
 mod render_pictures;
+// Edits: the bytes each changes, what it refuses, keys.
+mod scene_edit;
 // The reader: values, defaults, labels, places.
 mod scene_read;
 // Cameras: rays against projections, framing, zoom to the cursor, the six axis views.

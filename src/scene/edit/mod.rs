@@ -1,8 +1,20 @@
 //! Edits: each gives a new document and changes only the bytes it must.
 
+mod body;
+mod compose;
+mod cosmetic;
+mod force;
+mod pen;
+mod settings;
+mod structure;
+mod style;
+mod work;
+
 use glam::DVec3;
 
 use super::{Body, Document, Force, ForceKind, NodeKey, Shape, SimParams};
+
+pub(super) use style::Style;
 
 /// One change of the document. Each changes only the bytes it must.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,8 +94,10 @@ pub enum EditError {
 }
 
 impl Document {
-    /// Applies an edit. The document it is applied to stays as it is.
-    pub fn apply(&self, _edit: &Edit) -> Result<Edited, EditError> {
-        todo!()
+    /// Applies an edit. The document it is applied to stays as it is, and is what undo goes back to.
+    pub fn apply(&self, edit: &Edit) -> Result<Edited, EditError> {
+        let mut work = work::Work::on(self)?;
+        work.apply(edit)?;
+        work.finish()
     }
 }

@@ -3,10 +3,10 @@
 
 use super::log::Log;
 use crate::scene::shown;
-use crate::scene::tree::{View, tag};
+use crate::scene::tree::{RawKind, View, raw_kind, tag};
 
-/// Name of the processing instruction.
-pub(in crate::scene) const TARGET: &str = "polyscene";
+/// What the processing instruction begins with.
+pub(in crate::scene) const TARGET: &str = "?polyscene";
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Cosmetics {
@@ -19,8 +19,8 @@ pub(super) struct Cosmetics {
 /// Reads the element's first such instruction; attributes it does not know are left for later versions.
 pub(super) fn read<'a>(el: View<'a>, log: &mut Log<'a>) -> Cosmetics {
     let mut cosmetics = Cosmetics::default();
-    let Some(content) = el.raws().find_map(content) else { return cosmetics };
-    for attr in tag::pseudo_attributes(content) {
+    let Some(instruction) = el.raws().find(|raw| is_cosmetic(raw)) else { return cosmetics };
+    for attr in tag::attributes(instruction) {
         let Ok(attr) = attr else {
             log.warn(el.place(), "the polyscene instruction is not understood", "it is kept as it is");
             break;
@@ -48,14 +48,13 @@ pub(super) fn read<'a>(el: View<'a>, log: &mut Log<'a>) -> Cosmetics {
     cosmetics
 }
 
-/// What stands between the target and `?>`, if a raw child is such an instruction.
-pub(in crate::scene) fn content(raw: &str) -> Option<&str> {
-    let rest = raw.strip_prefix("<?")?.strip_prefix(TARGET)?.strip_suffix("?>")?;
-    (rest.is_empty() || rest.starts_with(crate::scene::number::is_space)).then_some(rest)
+/// Whether a raw child is such an instruction.
+pub(in crate::scene) fn is_cosmetic(raw: &str) -> bool {
+    raw_kind(raw) == RawKind::Instruction && tag::name(raw) == TARGET
 }
 
 /// Reads `#rrggbb`.
-pub(in crate::scene) fn parse_color(text: &str) -> Option<[u8; 3]> {
+fn parse_color(text: &str) -> Option<[u8; 3]> {
     let digits = text.strip_prefix('#')?;
     if digits.len() != 6 || !digits.bytes().all(|b| b.is_ascii_hexdigit()) {
         return None;

@@ -13,11 +13,6 @@ const NAMES: [&str; 9] = [
     "Solver",
 ];
 
-/// The names, for what [`FeatureCounts`] counts.
-pub(in crate::scene) fn feature_names() -> &'static [&'static str] {
-    &NAMES
-}
-
 /// How often a document uses each element of 1.1, and where first.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::scene) struct FeatureCounts {

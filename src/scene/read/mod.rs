@@ -13,7 +13,6 @@ mod shape;
 mod simulation;
 
 pub(super) use body::{BODY_ORDER, SHAPES};
-pub(super) use cosmetic::{TARGET as COSMETIC_TARGET, parse_color};
-pub(super) use feature::{FeatureCounts, feature_names};
+pub(super) use cosmetic::is_cosmetic;
 pub(super) use item::ItemReading;
 pub(super) use scene::{Meaning, read};

@@ -10,7 +10,7 @@ use crate::scene::ids::{Ids, Label};
 use crate::scene::rules::MAX_DIAGNOSTICS;
 use crate::scene::source::Source;
 use crate::scene::tree::{Children, View};
-use crate::scene::{Diagnostic, NodeKey, Scene, Severity, SimParams, shown};
+use crate::scene::{Diagnostic, NodeKey, Scene, Severity, SimParams, locate, shown};
 
 /// What a document says.
 #[derive(Debug, Default)]
@@ -23,9 +23,7 @@ pub(in crate::scene) struct Meaning {
 /// Reads a well-formed document.
 pub(in crate::scene) fn read(source: &Source, top: &Children) -> Meaning {
     let mut reader = Reader { problems: Vec::new(), features: FeatureCounts::default() };
-    let root = top.iter().filter_map(|child| child.element()).next();
-    let Some(node) = root else { return Meaning::default() };
-    let root = View { node, source: &source.text };
+    let Some(root) = locate::root(top, &source.text) else { return Meaning::default() };
     let scene = reader.root(root, source.contradiction.as_deref()).map(Arc::new);
     let diagnostics = reader.diagnostics(source);
     Meaning { scene, diagnostics, features: reader.features }

@@ -17,6 +17,7 @@ pub(in crate::scene) enum Child {
 }
 
 impl Child {
+    /// The element, if it is one.
     pub fn element(&self) -> Option<&Arc<Element>> {
         match self {
             Self::Element(element) => Some(element),

@@ -23,25 +23,19 @@ pub(in crate::scene) struct TagFault {
     pub message: &'static str,
 }
 
-/// The name of a start tag, such as `<Map Version="1.0">`.
+/// The name of a start tag, such as `<Map>`, or of an instruction, such as `<?xml?>`, then with its `?`.
 pub(in crate::scene) fn name(tag: &str) -> &str {
     let rest = tag.strip_prefix('<').unwrap_or(tag);
-    &rest[..name_len(rest)]
+    let begins = usize::from(rest.starts_with('?'));
+    let len = rest[begins..].find(|c: char| is_space(c) || matches!(c, '/' | '>' | '?'));
+    len.map_or(rest, |len| &rest[..begins + len])
 }
 
-fn name_len(text: &str) -> usize {
-    text.find(|c: char| is_space(c) || matches!(c, '/' | '>')).unwrap_or(text.len())
-}
-
-/// The attributes of a start tag.
+/// The attributes of a start tag, or the like in a processing instruction.
 pub(in crate::scene) fn attributes(tag: &str) -> Attributes<'_> {
-    let end = tag.len() - if tag.ends_with("/>") { 2 } else { usize::from(tag.ends_with('>')) };
+    let closed = tag.ends_with("/>") || tag.ends_with("?>");
+    let end = tag.len() - if closed { 2 } else { usize::from(tag.ends_with('>')) };
     Attributes { text: tag, at: (1 + name(tag).len()).min(end), end }
-}
-
-/// The `name="value"` pairs of a processing instruction's content.
-pub(in crate::scene) fn pseudo_attributes(content: &str) -> Attributes<'_> {
-    Attributes { text: content, at: 0, end: content.len() }
 }
 
 /// Iterator over attributes; ends after the first fault.
@@ -69,7 +63,7 @@ impl<'a> Iterator for Attributes<'a> {
 impl<'a> Attributes<'a> {
     fn read(&self, before: usize, start: usize) -> Result<Attr<'a>, TagFault> {
         let fault = |at, message| TagFault { at, message };
-        if before == start && before > 0 {
+        if before == start {
             return Err(fault(start, "white space is missing before an attribute"));
         }
         let text = &self.text[..self.end];
@@ -102,12 +96,12 @@ fn spaces(text: &str) -> usize {
     text.len() - text.trim_start_matches(is_space).len()
 }
 
-/// The named attribute of a start tag.
+/// The named attribute of a tag.
 pub(in crate::scene) fn find<'a>(tag: &'a str, name: &str) -> Option<Attr<'a>> {
     attributes(tag).flatten().find(|attr| attr.name == name)
 }
 
-/// The tag with an attribute's raw value replaced, or added as the last one.
+/// The tag with an attribute's raw value replaced, or the attribute added as the last one.
 pub(in crate::scene) fn with_raw(tag: &str, name: &str, raw: &str, quote: char) -> String {
     match find(tag, name) {
         Some(attr) => splice(tag, attr.value, raw),

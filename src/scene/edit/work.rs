@@ -1,0 +1,232 @@
+//! An edit in the making: the tree so far, and what later steps need to know of it.
+
+use std::sync::{Arc, OnceLock};
+
+use super::pen::{Changed, Pen, Spot, check, check_vector};
+use super::{Edit, EditError, Edited, body, force, settings};
+use crate::scene::document::Content;
+use crate::scene::ids::Ids;
+use crate::scene::locate::{self, Index, List};
+use crate::scene::rules::{self, Range};
+use crate::scene::tree::{Child, Children, Element, tag};
+use crate::scene::{Document, NodeKey, number};
+
+/// Children of the root and of `Simulation`, in the order in which they are written.
+const SECTIONS: [&str; 6] = ["Map", "Simulation", "Primitives", "TimeSpeed", "Forces", "Solver"];
+
+pub(super) struct Work<'d> {
+    document: &'d Document,
+    pub pen: Pen<'d>,
+    top: Children,
+    /// Where bodies and forces stand; gone when an edit added or removed some.
+    index: Option<Arc<Index>>,
+    ids: [Option<Ids>; 2],
+    pub added: Vec<NodeKey>,
+}
+
+impl<'d> Work<'d> {
+    pub fn on(document: &'d Document) -> Result<Self, EditError> {
+        let Content::Tree(top) = &document.content else {
+            let first = document.diagnostics().first().map(ToString::to_string).unwrap_or_default();
+            let message = format!("the file cannot be edited before it is mended in a text editor: {first}");
+            return Err(EditError::Invalid(message));
+        };
+        let source = &*document.source;
+        let style = source.style(top);
+        let pen = Pen { source, style };
+        let root = locate::root(top, &source.text).ok_or(EditError::Gone)?;
+        if root.name() != "PolyPhysicsXml" {
+            return Err(EditError::Invalid("the file is no scene, so it cannot be edited as one".into()));
+        }
+        let index = document.index.get().cloned();
+        Ok(Self { document, pen, top: top.clone(), index, ids: [None, None], added: Vec::new() })
+    }
+
+    pub fn apply(&mut self, edit: &Edit) -> Result<(), EditError> {
+        match edit {
+            Edit::MapSize(size) => {
+                check_vector("the map's size", *size, Range::Positive)?;
+                self.section(&["Map"], |pen, map, lead| settings::set_size(pen, map, lead, *size))
+            }
+            Edit::MapTiles(tiles) => {
+                if let Some(must) = tiles.iter().find_map(|&tiles| rules::tiles_refusal(f64::from(tiles))) {
+                    return Err(EditError::Invalid(format!("the number of tiles on an axis {must}")));
+                }
+                self.section(&["Map"], |pen, map, lead| settings::set_tiles(pen, map, lead, *tiles))
+            }
+            Edit::TimeSpeed(speed) => {
+                check("the time speed", *speed, Range::NotNegative)?;
+                self.section(&["Simulation"], |pen, el, lead| {
+                    pen.with_leaf(el, lead, ("TimeSpeed", &SECTIONS), &[("F32", *speed)], Some(1.0))
+                })
+            }
+            Edit::Params(params) => {
+                settings::check_params(params)?;
+                self.section(&["Simulation"], |pen, el, lead| {
+                    settings::set_params(pen, el, lead, &SECTIONS, params)
+                })
+            }
+            Edit::Body { key, change } => {
+                self.item(List::Bodies, *key, |pen, el, lead| body::change(pen, el, lead, change))
+            }
+            Edit::Force { key, change } => {
+                self.item(List::Forces, *key, |pen, el, lead| force::change(pen, el, lead, change))
+            }
+            Edit::AddBody(body) => self.add_body(body),
+            Edit::AddForce(force) => self.add_force(force),
+            Edit::Duplicate { keys, offset } => self.duplicate(keys, *offset),
+            Edit::Delete { keys } => self.delete(keys),
+            Edit::MakeIdsUnique => self.make_ids_unique(),
+            Edit::All(edits) => edits.iter().try_for_each(|edit| self.apply(edit)),
+        }
+    }
+
+    /// The document after the edit, its version raised or lowered if its use of 1.1 began or ended.
+    pub fn finish(mut self) -> Result<Edited, EditError> {
+        if self.is_unchanged() {
+            return Ok(Edited { document: self.document.clone(), added: self.added });
+        }
+        let mut document = self.make();
+        let (before, now) = (&self.document.meaning().features, &document.meaning().features);
+        let version = if now.exceeds(before) {
+            Some("1.1")
+        } else if now.is_empty() && !before.is_empty() {
+            Some("1.0")
+        } else {
+            None
+        };
+        if let Some(version) = version {
+            let pen = self.pen;
+            self.section(&[], |_, root, _| Ok(with_version(pen, root, version)))?;
+            document = self.make();
+        }
+        Ok(Edited { document, added: self.added })
+    }
+
+    /// Changes the element at a path below the root; those missing on the way are added if need be.
+    pub fn section(
+        &mut self,
+        path: &[&str],
+        change: impl FnOnce(Pen<'_>, &Arc<Element>, &str) -> Changed,
+    ) -> Result<(), EditError> {
+        let source = &self.pen.source.text;
+        let at = self.top.iter().position(|child| child.element().is_some()).ok_or(EditError::Gone)?;
+        let root = self.top.get(at).and_then(Child::element).ok_or(EditError::Gone)?;
+        debug_assert_eq!(tag::name(root.open.get(source)), "PolyPhysicsXml");
+        let new = descend(self.pen, root, &self.pen.style.newline, path, change)?;
+        if !Arc::ptr_eq(&new, root) {
+            self.top = self.top.splice(at..at + 1, [Child::Element(new)]);
+        }
+        Ok(())
+    }
+
+    /// Changes one body or force.
+    pub fn item(
+        &mut self,
+        list: List,
+        key: NodeKey,
+        change: impl FnOnce(Pen<'_>, &Arc<Element>, &str) -> Changed,
+    ) -> Result<(), EditError> {
+        let at = self.position(list, key)?;
+        self.section(list.path(), |pen, el, _| pen.with_child(el, at, |item, lead| change(pen, item, lead)))
+    }
+
+    /// The place of a body or force among its list's children.
+    fn position(&mut self, list: List, key: NodeKey) -> Result<usize, EditError> {
+        match self.find(key) {
+            Some((found, at)) if found == list => Ok(at),
+            _ => Err(EditError::Gone),
+        }
+    }
+
+    pub fn find(&mut self, key: NodeKey) -> Option<(List, usize)> {
+        let (top, source) = (&self.top, &self.pen.source.text);
+        let index = self.index.get_or_insert_with(|| Arc::new(locate::index(top, source)));
+        index.get(&key).copied()
+    }
+
+    /// To be called when places in a list have shifted.
+    pub fn forget_places(&mut self) {
+        self.index = None;
+    }
+
+    /// The elements of a list.
+    pub fn items(&self, list: List) -> Vec<Arc<Element>> {
+        let root = locate::root(&self.top, &self.pen.source.text);
+        let el = root.and_then(|root| list.find(root));
+        el.into_iter().flat_map(|el| el.elements()).map(|item| item.node.clone()).collect()
+    }
+
+    /// The ids in use, including those that the reader gives to elements without.
+    pub fn ids(&mut self, list: List) -> &mut Ids {
+        let fresh = || {
+            let scene = self.document.scene();
+            let given: Vec<i64> = match list {
+                List::Bodies => scene.map(|scene| scene.bodies.iter().map(|body| body.id).collect()),
+                List::Forces => scene.map(|scene| scene.forces.iter().map(|force| force.id).collect()),
+            }
+            .unwrap_or_default();
+            let written = self.items(list);
+            Ids::new(written.iter().filter_map(|el| self.written_id(el)).chain(given))
+        };
+        let slot = list as usize;
+        if self.ids[slot].is_none() {
+            let ids = fresh();
+            self.ids[slot] = Some(ids);
+        }
+        self.ids[slot].get_or_insert_with(|| Ids::new(std::iter::empty()))
+    }
+
+    pub fn written_id(&self, el: &Arc<Element>) -> Option<i64> {
+        self.pen.view(el).value("UserID")?.trim_matches(number::is_space).parse().ok()
+    }
+
+    fn is_unchanged(&self) -> bool {
+        let Content::Tree(before) = &self.document.content else { return false };
+        let root = |top: &Children| top.iter().find_map(Child::element).cloned();
+        match (root(before), root(&self.top)) {
+            (Some(before), Some(now)) => Arc::ptr_eq(&before, &now),
+            _ => false,
+        }
+    }
+
+    fn make(&self) -> Document {
+        Document {
+            source: self.document.source.clone(),
+            content: Content::Tree(self.top.clone()),
+            meaning: OnceLock::new(),
+            index: self.index.clone().map(OnceLock::from).unwrap_or_default(),
+        }
+    }
+}
+
+fn descend(
+    pen: Pen<'_>,
+    el: &Arc<Element>,
+    lead: &str,
+    path: &[&str],
+    change: impl FnOnce(Pen<'_>, &Arc<Element>, &str) -> Changed,
+) -> Changed {
+    let [name, rest @ ..] = path else { return change(pen, el, lead) };
+    let (parent, at) = match pen.child_at(el, name) {
+        Some(at) => (el.clone(), at),
+        None => {
+            let empty = |_: &str| format!("<{name}{}", pen.style.self_close);
+            let parent = pen.with_new(el, lead, Spot::Ordered(&SECTIONS), name, empty)?;
+            let at = pen.child_at(&parent, name).ok_or(EditError::Gone)?;
+            (parent, at)
+        }
+    };
+    let changed = pen.with_child(&parent, at, |child, lead| descend(pen, child, lead, rest, change))?;
+    // What was only added on the way is not worth a change.
+    Ok(if Arc::ptr_eq(&changed, &parent) { el.clone() } else { changed })
+}
+
+/// Only 1.0 and 1.1 are changed: any other version is a claim of its own.
+fn with_version(pen: Pen<'_>, root: &Arc<Element>, version: &str) -> Arc<Element> {
+    let written = pen.view(root).value("Version");
+    match written.as_deref().map(|written| written.trim().replace(',', ".")).as_deref() {
+        None | Some("1" | "1.0" | "1.1") => pen.with_text(root, "Version", version),
+        Some(_) => root.clone(),
+    }
+}
