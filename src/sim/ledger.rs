@@ -9,6 +9,11 @@ pub enum BodyRef {
     Static(u32),
 }
 
+impl BodyRef {
+    /// No body: what an edit of a force is recorded with.
+    pub const NONE: Self = Self::Dynamic(u32::MAX);
+}
+
 /// What kind of event a ledger row is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum EventKind {

@@ -1,12 +1,39 @@
 //! The simulation core: a scene is compiled into a model and a state, and advanced event by event.
 //! Knows nothing of files, clocks or pixels.
 
+// What users see.
 mod edit;
+mod force;
 mod ledger;
 mod report;
 mod simulation;
 
+// From scene to model.
+mod compile;
+mod model;
+mod plan;
+
+// The step, from the top down.
+mod change;
+mod contact;
+mod engine;
+mod impact;
+mod lasting;
+mod motion;
+mod neighbours;
+mod predict;
+mod queue;
+mod segment;
+mod state;
+mod tiles;
+
+// What looks on.
+mod account;
+mod hash;
+mod monitor;
+
 pub use edit::{EditRefused, SimEdit};
+pub use force::{Force, Subject};
 pub use ledger::{BodyRef, Event, EventKind};
 pub use report::{BodyState, ContactState, Counters, Energy, Momentum, Plan, Tiling};
 pub use simulation::{CompileError, Fault, Simulation, Snapshot};

@@ -1,8 +1,22 @@
 //! The simulation as its users see it: compile, begin, next event, finish, read.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
-use super::{BodyRef, BodyState, Counters, EditRefused, Energy, Event, Momentum, Plan, SimEdit, Tiling};
+use super::account::{self, present, subject};
+use super::compile::compile;
+use super::engine;
+use super::force::Force;
+use super::lasting::contact_state;
+use super::model::{Identity, Model};
+use super::motion::applied_force;
+use super::neighbours::{enter, predict_all};
+use super::state::State;
+use super::{
+    BodyRef, BodyState, Counters, EditRefused, Energy, Event, Momentum, Plan, SimEdit, Tiling, change, hash,
+    monitor,
+};
 use crate::scene::{Diagnostic, NodeKey, Scene};
 
 /// Why a scene can't be simulated.
@@ -20,122 +34,225 @@ pub struct Fault {
     pub message: String,
 }
 
-/// A bit-exact copy of everything that moves.
+/// A bit-exact copy of a simulation at one time.
 #[derive(Clone, Debug)]
-pub struct Snapshot {}
+pub struct Snapshot(Box<Simulation>);
 
 /// A running scene.
+///
+/// Time goes on by [`Self::begin`], [`Self::next_event`] until there is none, [`Self::finish`]. In between,
+/// everything can be read at [`Self::time`]. The events and states do not depend on how time is divided.
 #[derive(Clone, Debug)]
-pub struct Simulation {}
+pub struct Simulation {
+    model: Arc<Model>,
+    state: State,
+    fault: Option<Fault>,
+}
 
 impl Simulation {
-    pub fn new(_scene: &Scene) -> Result<Self, CompileError> {
-        todo!()
+    /// Compiles a scene and goes to its start, t = 0.
+    pub fn new(scene: &Scene) -> Result<Self, CompileError> {
+        let (mut model, starts) = compile(scene).map_err(|problems| CompileError { problems })?;
+        let mut state = State::new(&starts);
+        for body in 0..starts.len() as u32 {
+            enter(&model, &mut state, body, 0.0);
+        }
+        let fault = start(&model, &mut state).err();
+        model.start_warnings = monitor::start_warnings(&model, &state);
+        Ok(Self { model: Arc::new(model), state, fault })
     }
 
     /// Geometric warnings about the start: overlaps, bodies outside the map.
     pub fn start_warnings(&self) -> &[Diagnostic] {
-        todo!()
+        &self.model.start_warnings
     }
 
     /// Model time of what can be read now, s.
     pub fn time(&self) -> f64 {
-        todo!()
+        self.state.now
     }
 
-    /// Sets the time up to which [`Self::next_event`] goes. Times before now count as now.
-    pub fn begin(&mut self, _until: f64) {
-        todo!()
+    /// Sets the time up to which [`Self::next_event`] goes. A time before now, or none at all, counts as now.
+    pub fn begin(&mut self, until: f64) {
+        self.state.until = if until > self.state.now { until } else { self.state.now };
     }
 
     /// Goes to the next event not after the time given to [`Self::begin`] and reports it; `None` when
     /// there is none left: then now is still the last event's time, until [`Self::finish`].
+    ///
+    /// After a fault it goes no further and gives the same fault again.
     pub fn next_event(&mut self) -> Result<Option<Event>, Fault> {
-        todo!()
+        loop {
+            if let Some(event) = self.state.outbox.pop_front() {
+                self.state.now = self.state.now.max(event.time);
+                return Ok(Some(event));
+            }
+            if let Some(fault) = &self.fault {
+                return Err(fault.clone());
+            }
+            match engine::advance(&self.model, &mut self.state) {
+                Ok(true) => {}
+                Ok(false) => return Ok(None),
+                Err(fault) => self.fault = Some(fault),
+            }
+        }
     }
 
     /// Goes through the events that are left to the time given to [`Self::begin`], which becomes now.
-    pub fn finish(&mut self, _on_event: &mut dyn FnMut(&Simulation, &Event)) -> Result<(), Fault> {
-        todo!()
+    pub fn finish(&mut self, on_event: &mut dyn FnMut(&Simulation, &Event)) -> Result<(), Fault> {
+        while let Some(event) = self.next_event()? {
+            on_event(self, &event);
+        }
+        self.state.now = self.state.until;
+        Ok(())
     }
 
+    /// Dynamic bodies that are there now.
     pub fn dynamic_count(&self) -> usize {
-        todo!()
+        present(&self.model).count()
     }
 
+    /// Static bodies that are there now.
     pub fn static_count(&self) -> usize {
-        todo!()
+        self.model.fixtures.iter().filter(|fixture| fixture.present).count()
     }
 
-    /// All dynamic bodies that are there now, in UserID order.
+    /// All dynamic bodies that are there now, in UserID order; those added while running come last.
     pub fn dynamic_bodies(&self) -> impl Iterator<Item = BodyRef> + '_ {
-        std::iter::empty()
+        present(&self.model).map(BodyRef::Dynamic)
     }
 
     /// State of a dynamic body now; `None` for a static or removed one.
-    pub fn state(&self, _body: BodyRef) -> Option<BodyState> {
-        todo!()
+    pub fn state(&self, body: BodyRef) -> Option<BodyState> {
+        let index = self.dynamic_index(body)?;
+        let (path, now) = (self.state.path(index), self.state.now);
+        Some(BodyState {
+            position: path.position(now),
+            velocity: path.velocity(now),
+            acceleration: path.acceleration(now),
+            contact: contact_state(&self.state, index, now),
+        })
     }
 
-    /// Sum of the applied forces (without contact forces) on a dynamic body now, N.
-    pub fn total_force(&self, _body: BodyRef) -> DVec3 {
-        todo!()
+    /// Sum of the applied forces (without contact forces) on a dynamic body now, N; zero for others.
+    pub fn total_force(&self, body: BodyRef) -> DVec3 {
+        self.dynamic_index(body).map_or(DVec3::ZERO, |index| {
+            applied_force(&self.model, &subject(&self.model, &self.state, index, self.state.now))
+        })
     }
 
-    pub fn key(&self, _body: BodyRef) -> NodeKey {
-        todo!()
+    /// The document's key of a body; the default key for [`BodyRef::NONE`].
+    pub fn key(&self, body: BodyRef) -> NodeKey {
+        self.identity(body).map_or(NodeKey::default(), |identity| identity.key)
     }
 
-    /// The unique label: UserID, or UserID#k.
-    pub fn label(&self, _body: BodyRef) -> &str {
-        todo!()
+    /// The unique label: UserID, or UserID#k. Empty for [`BodyRef::NONE`].
+    pub fn label(&self, body: BodyRef) -> &str {
+        self.identity(body).map_or("", |identity| &identity.label)
     }
 
-    pub fn find(&self, _key: NodeKey) -> Option<BodyRef> {
-        todo!()
+    /// Mass in kg of a dynamic body; `None` for others.
+    pub fn mass(&self, body: BodyRef) -> Option<f64> {
+        self.dynamic_index(body).map(|index| self.model.movers[index as usize].mass)
+    }
+
+    /// The body of a document key, if it is there now.
+    pub fn find(&self, key: NodeKey) -> Option<BodyRef> {
+        change::find(&self.model, key)
     }
 
     pub fn energy(&self) -> Energy {
-        todo!()
+        account::energy(&self.model, &self.state)
     }
 
     pub fn momentum(&self) -> Momentum {
-        todo!()
+        account::momentum(&self.model, &self.state)
     }
 
     /// Deepest overlap of any two bodies now, m, ≥ 0. Costs a look through the tiles.
     pub fn worst_overlap(&self) -> f64 {
-        todo!()
+        monitor::worst_overlap(&self.model, &self.state, self.state.now)
     }
 
     pub fn counters(&self) -> Counters {
-        todo!()
+        self.state.counters
     }
 
     pub fn plan(&self) -> &Plan {
-        todo!()
+        &self.model.plan
     }
 
-    /// The occupied tiles now, at most `limit` of them.
-    pub fn tiling(&self, _limit: usize) -> Tiling {
-        todo!()
+    /// The occupied tiles, at most `limit` of them.
+    pub fn tiling(&self, limit: usize) -> Tiling {
+        monitor::tiling(&self.model, &self.state, limit)
     }
 
-    /// Applies a change now.
-    pub fn apply(&mut self, _edit: &SimEdit) -> Result<(), EditRefused> {
-        todo!()
+    /// Applies a change now. Refused, everything is as it was.
+    pub fn apply(&mut self, edit: &SimEdit) -> Result<(), EditRefused> {
+        self.change(|model, state| change::apply(model, state, edit))
+    }
+
+    /// Adds a force of the user's own now.
+    pub fn add_force(&mut self, force: Arc<dyn Force>) -> Result<(), EditRefused> {
+        self.change(|model, state| change::add_custom(model, state, force))
+    }
+
+    /// Removes a force added by [`Self::add_force`] now; whether it was there.
+    pub fn remove_force(&mut self, force: &Arc<dyn Force>) -> Result<bool, EditRefused> {
+        self.change(|model, state| change::remove_custom(model, state, force))
     }
 
     pub fn snapshot(&self) -> Snapshot {
-        todo!()
+        Snapshot(Box::new(self.clone()))
     }
 
-    pub fn restore(&mut self, _snapshot: &Snapshot) {
-        todo!()
+    pub fn restore(&mut self, snapshot: &Snapshot) {
+        self.clone_from(&snapshot.0);
     }
 
     /// FNV-1a over the bits of time, positions, velocities and contact states.
     pub fn hash(&self) -> u64 {
-        todo!()
+        hash::of(&self.model, &self.state)
     }
+
+    fn change<T>(
+        &mut self,
+        change: impl FnOnce(&mut Model, &mut State) -> Result<T, EditRefused>,
+    ) -> Result<T, EditRefused> {
+        let (mut model, mut state) = (Model::clone(&self.model), self.state.clone());
+        let outcome = change(&mut model, &mut state)?;
+        (self.model, self.state, self.fault) = (Arc::new(model), state, None);
+        Ok(outcome)
+    }
+
+    fn dynamic_index(&self, body: BodyRef) -> Option<u32> {
+        match body {
+            BodyRef::Dynamic(index) if self.model.movers.get(index as usize).is_some_and(|m| m.present) => {
+                Some(index)
+            }
+            _ => None,
+        }
+    }
+
+    fn identity(&self, body: BodyRef) -> Option<&Identity> {
+        match body {
+            BodyRef::Dynamic(index) => self.model.movers.get(index as usize).map(|mover| &mover.identity),
+            BodyRef::Static(index) => {
+                self.model.fixtures.get(index as usize).map(|fixture| &fixture.identity)
+            }
+        }
+    }
+}
+
+/// First segments and predictions of all bodies. The books are opened before anything can touch them.
+fn start(model: &Model, state: &mut State) -> Result<(), Fault> {
+    account::open(model, state);
+    for body in 0..state.segments.len() as u32 {
+        let at_start = state.segments[body as usize];
+        engine::begin(model, state, body, 0.0, at_start.x, at_start.v)?;
+    }
+    for body in 0..state.segments.len() as u32 {
+        predict_all(model, state, body, 0.0);
+    }
+    Ok(())
 }

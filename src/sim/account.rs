@@ -1,0 +1,197 @@
+//! The books: what energy and momentum ought to be, so that drift can be told from loss.
+
+use glam::DVec3;
+
+use super::force::Subject;
+use super::model::Model;
+use super::motion::{acceleration_of, integrate};
+use super::state::State;
+use super::{Energy, Momentum};
+
+/// A sum that keeps its rounding (Neumaier 1974).
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Sum {
+    total: f64,
+    lost: f64,
+}
+
+impl Sum {
+    pub fn add(&mut self, value: f64) {
+        let total = self.total + value;
+        self.lost += if self.total.abs() >= value.abs() {
+            (self.total - total) + value
+        } else {
+            (value - total) + self.total
+        };
+        self.total = total;
+    }
+
+    pub fn value(&self) -> f64 {
+        self.total + self.lost
+    }
+}
+
+/// The same for vectors.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct VectorSum([Sum; 3]);
+
+impl VectorSum {
+    pub fn add(&mut self, value: DVec3) {
+        for (sum, part) in self.0.iter_mut().zip(value.to_array()) {
+            sum.add(part);
+        }
+    }
+
+    pub fn value(&self) -> DVec3 {
+        DVec3::from_array(self.0.map(|sum| sum.value()))
+    }
+}
+
+/// Running totals since the start.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Account {
+    pub energy_at_start: f64,
+    pub kinetic_at_start: f64,
+    pub momentum_at_start: DVec3,
+    /// Σ m|v| at the start, kg·m/s.
+    pub momentum_scale: f64,
+    /// Energy taken by impacts, J.
+    pub impact_losses: Sum,
+    /// Energy taken by drag over segments that have ended, J.
+    pub dissipated: Sum,
+    /// Energy put in by edits, J.
+    pub edit_work: Sum,
+    /// Momentum given by static bodies in impacts, and by edits.
+    pub impulses: VectorSum,
+    /// ∫F dt over segments that have ended, contact forces included.
+    pub force_impulse: VectorSum,
+}
+
+/// Kinetic and potential energy now, J.
+pub(super) fn energies(model: &Model, state: &State, time: f64) -> (f64, Option<f64>) {
+    let mut kinetic = Sum::default();
+    let mut potential = Some(Sum::default());
+    for body in present(model) {
+        let mass = model.movers[body as usize].mass;
+        kinetic.add(0.5 * mass * state.velocity(body, time).length_squared());
+        for force in &model.forces {
+            match (&mut potential, force.law.potential(&subject(model, state, body, time))) {
+                (Some(sum), Some(value)) => sum.add(value),
+                _ => potential = None,
+            }
+        }
+    }
+    (kinetic.value(), potential.map(|sum| sum.value()))
+}
+
+pub(super) fn momentum_value(model: &Model, state: &State, time: f64) -> (DVec3, f64) {
+    let mut sum = VectorSum::default();
+    let mut scale = Sum::default();
+    for body in present(model) {
+        let momentum = model.movers[body as usize].mass * state.velocity(body, time);
+        sum.add(momentum);
+        scale.add(momentum.length());
+    }
+    (sum.value(), scale.value())
+}
+
+/// Opens the books at the present state.
+pub(super) fn open(model: &Model, state: &mut State) {
+    let (kinetic, potential) = energies(model, state, state.now);
+    let (momentum, scale) = momentum_value(model, state, state.now);
+    state.account = Account {
+        energy_at_start: kinetic + potential.unwrap_or(0.0),
+        kinetic_at_start: kinetic,
+        momentum_at_start: momentum,
+        momentum_scale: scale,
+        ..Account::default()
+    };
+}
+
+/// Books the work and impulse of a body's segment up to `time`, before it is replaced.
+pub(super) fn book_segment(model: &Model, state: &mut State, body: u32, time: f64) {
+    let dissipated = dissipated(model, state, body, time);
+    let impulse = force_impulse(model, state, body, time);
+    state.account.dissipated.add(dissipated);
+    state.account.force_impulse.add(impulse);
+}
+
+pub(super) fn energy(model: &Model, state: &State) -> Energy {
+    let (kinetic, potential) = energies(model, state, state.now);
+    let total = potential.map(|potential| kinetic + potential);
+    let account = &state.account;
+    let residual = total.map(|total| {
+        let mut sum = Sum::default();
+        sum.add(total);
+        sum.add(-account.energy_at_start);
+        sum.add(account.impact_losses.value());
+        sum.add(account.dissipated.value());
+        for body in present(model) {
+            sum.add(dissipated(model, state, body, state.now));
+        }
+        sum.add(-account.edit_work.value());
+        relative(sum.value(), account.energy_at_start.abs().max(account.kinetic_at_start).max(kinetic))
+    });
+    Energy { kinetic, potential, total, residual }
+}
+
+pub(super) fn momentum(model: &Model, state: &State) -> Momentum {
+    let (value, scale) = momentum_value(model, state, state.now);
+    let account = &state.account;
+    let mut sum = VectorSum::default();
+    sum.add(value);
+    sum.add(-account.momentum_at_start);
+    sum.add(-account.impulses.value());
+    sum.add(-account.force_impulse.value());
+    for body in present(model) {
+        sum.add(-force_impulse(model, state, body, state.now));
+    }
+    Momentum { value, residual: relative(sum.value().length(), scale.max(account.momentum_scale)) }
+}
+
+/// Zero over zero is no drift.
+fn relative(difference: f64, scale: f64) -> f64 {
+    if difference == 0.0 { 0.0 } else { difference / scale.max(f64::MIN_POSITIVE) }
+}
+
+pub(super) fn present(model: &Model) -> impl Iterator<Item = u32> + '_ {
+    (0u32..).zip(&model.movers).filter(|(_, mover)| mover.present).map(|(body, _)| body)
+}
+
+pub(super) fn subject<'a>(model: &'a Model, state: &State, body: u32, time: f64) -> Subject<'a> {
+    let mover = &model.movers[body as usize];
+    Subject {
+        time,
+        position: state.position(body, time),
+        velocity: state.velocity(body, time),
+        mass: mover.mass,
+        radius: mover.radius,
+        material: mover.material.as_deref(),
+    }
+}
+
+/// −∫ F·v dt of the drag forces along the body's segment up to `time`, J.
+fn dissipated(model: &Model, state: &State, body: u32, time: f64) -> f64 {
+    if !model.forces.iter().any(|force| force.law.dissipates()) {
+        return 0.0;
+    }
+    integrate(state.segments[body as usize].start, time, 0.0, |at| {
+        let subject = subject(model, state, body, at);
+        let drags = model.forces.iter().filter(|force| force.law.dissipates());
+        -drags.map(|force| force.law.force(&subject).dot(subject.velocity)).sum::<f64>()
+    })
+}
+
+/// ∫ F dt of all forces on the body along its segment up to `time`, N·s. Along a field segment the force
+/// law itself is integrated over the path, which checks the integrator.
+fn force_impulse(model: &Model, state: &State, body: u32, time: f64) -> DVec3 {
+    let segment = &state.segments[body as usize];
+    let mass = model.movers[body as usize].mass;
+    if segment.step == 0.0 {
+        return mass * (time - segment.start) * segment.a;
+    }
+    integrate(segment.start, time, DVec3::ZERO, |at| {
+        let subject = subject(model, state, body, at);
+        mass * acceleration_of(model, &state.contacts[body as usize], &subject)
+    })
+}

@@ -1,0 +1,146 @@
+//! Scene → model and state: sorts bodies by UserID, makes the tiles, decides the plan.
+
+use std::sync::Arc;
+
+use glam::{DMat3, DVec3};
+
+use super::force::{ForceEntry, Law};
+use super::model::{Fixture, FixtureShape, Identity, Model, MoverInfo, Plate};
+use super::plan::plan_of;
+use super::tiles::{Grid, StaticTiles};
+use crate::scene::{Body, Diagnostic, Motion, Scene, Severity, Shape, rotation_matrix};
+
+/// Start of one dynamic body.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Start {
+    pub position: DVec3,
+    pub velocity: DVec3,
+}
+
+/// The model, and where its dynamic bodies start (same order).
+pub(super) fn compile(scene: &Scene) -> Result<(Model, Vec<Start>), Vec<Diagnostic>> {
+    let mut bodies: Vec<&Body> = scene.bodies.iter().collect();
+    // Stable: bodies of the same id stay in file order.
+    bodies.sort_by_key(|body| body.id);
+    let mut movers = Vec::new();
+    let mut starts = Vec::new();
+    let mut fixtures = Vec::new();
+    let mut problems = Vec::new();
+    for (index, body) in bodies.iter().enumerate() {
+        let order = bodies[..index].iter().rev().take_while(|other| other.id == body.id).count() as u32;
+        match compile_body(body, order) {
+            Ok(Compiled::Mover(mover, start)) => {
+                movers.push(mover);
+                starts.push(start);
+            }
+            Ok(Compiled::Fixture(fixture)) => fixtures.push(fixture),
+            Err(problem) => problems.push(problem),
+        }
+    }
+    if !problems.is_empty() {
+        return Err(problems);
+    }
+    let forces = scene
+        .forces
+        .iter()
+        .map(|force| ForceEntry { key: Some(force.key), law: Law::from_kind(&force.kind) })
+        .collect();
+    let grid = Grid::new(&scene.map);
+    let static_tiles = StaticTiles::new(&grid, &fixtures, scene.params.static_tile_limit as u64);
+    let mut model = Model {
+        params: scene.params,
+        movers,
+        fixtures,
+        forces,
+        grid,
+        static_tiles,
+        plan: super::Plan::default(),
+        start_warnings: Vec::new(),
+    };
+    model.plan = plan_of(&model);
+    Ok((model, starts))
+}
+
+/// One body of a model.
+pub(super) enum Compiled {
+    Mover(MoverInfo, Start),
+    Fixture(Fixture),
+}
+
+pub(super) fn compile_body(body: &Body, order: u32) -> Result<Compiled, Diagnostic> {
+    let identity = Identity { key: body.key, id: body.id, label: Arc::from(body.label.as_str()), order };
+    match (&body.motion, &body.shape) {
+        (Motion::Dynamic { mass, velocity }, Shape::Sphere { radius }) => Ok(Compiled::Mover(
+            MoverInfo {
+                identity,
+                mass: *mass,
+                radius: *radius,
+                bounce: body.bounce,
+                material: body.material.as_deref().map(Arc::from),
+                present: true,
+            },
+            Start { position: body.position, velocity: *velocity },
+        )),
+        (Motion::Static, Shape::Sphere { radius }) => Ok(Compiled::Fixture(Fixture {
+            identity,
+            bounce: body.bounce,
+            position: body.position,
+            shape: FixtureShape::Sphere { radius: *radius },
+            present: true,
+        })),
+        (Motion::Static, Shape::Plane { half_x, half_y }) => {
+            let frame = snapped(rotation_matrix(body.rotation));
+            let plate = Plate {
+                center: body.position,
+                axis_x: frame.x_axis,
+                axis_y: frame.y_axis,
+                normal: frame.z_axis,
+                half_x: *half_x,
+                half_y: *half_y,
+            };
+            Ok(Compiled::Fixture(Fixture {
+                identity,
+                bounce: body.bounce,
+                position: body.position,
+                shape: FixtureShape::Plate(plate),
+                present: true,
+            }))
+        }
+        (Motion::Dynamic { .. }, Shape::Plane { .. }) => Err(problem(
+            body,
+            "a plane can't be dynamic".into(),
+            "make it a HardObject, or use another shape",
+        )),
+        (_, Shape::Unbuilt { element }) => Err(problem(
+            body,
+            format!("{element} can't be simulated by this version"),
+            "remove the body, or replace what this version does not know",
+        )),
+    }
+}
+
+fn problem(body: &Body, what: String, hint: &str) -> Diagnostic {
+    Diagnostic {
+        severity: Severity::Error,
+        position: None,
+        path: String::new(),
+        message: format!("body {}: {what}", body.label),
+        hint: hint.into(),
+        key: Some(body.key),
+    }
+}
+
+/// Entries that are 0 or ±1 but for rounding become so. Else a floor turned by −π/2, which no binary
+/// number equals, would be an incline of 6e-17 on which nothing ever lies still.
+fn snapped(matrix: DMat3) -> DMat3 {
+    const ROUNDING: f64 = 4.0 * f64::EPSILON;
+    DMat3::from_cols_array(&matrix.to_cols_array().map(|entry| {
+        if entry.abs() < ROUNDING {
+            0.0
+        } else if (entry.abs() - 1.0).abs() < ROUNDING {
+            entry.signum()
+        } else {
+            entry
+        }
+    }))
+}

@@ -1,0 +1,132 @@
+//! Response to an impact: Newton's law of restitution, v' = v − (1+e)(v·n)n and its two-body form.
+
+use glam::DVec3;
+
+use super::engine::{begin, in_id_order, record, restart};
+use super::lasting::{Hit, keep_contacts, settle};
+use super::model::Model;
+use super::neighbours::predict_all;
+use super::predict::Gap;
+use super::state::State;
+use super::{BodyRef, Event, EventKind, Fault};
+
+/// Two dynamic spheres exchange momentum along the line of centres.
+pub(super) fn of_pair(
+    model: &Model,
+    state: &mut State,
+    a: u32,
+    b: u32,
+    time: f64,
+    gap: &Gap,
+) -> Result<(), Fault> {
+    let (info_a, info_b) = (&model.movers[a as usize], &model.movers[b as usize]);
+    let cascades = [note_impact(model, state, a, time), note_impact(model, state, b, time)];
+    let (restitution, kind) = restitution(info_a.bounce * info_b.bounce, cascades.contains(&true));
+    let reduced_mass = info_a.mass * info_b.mass / (info_a.mass + info_b.mass);
+    let impulse = -(1.0 + restitution) * reduced_mass * gap.rate;
+    // ΔE = ½ μ v_n² (1 − e²)
+    state
+        .account
+        .impact_losses
+        .add(0.5 * reduced_mass * gap.rate * gap.rate * (1.0 - restitution * restitution));
+    let event = Event {
+        seq: 0,
+        time,
+        kind,
+        a: BodyRef::Dynamic(a),
+        b: Some(BodyRef::Dynamic(b)),
+        point: gap.point,
+        normal: gap.normal,
+        impulse,
+        vn_before: gap.rate,
+        vn_after: -restitution * gap.rate,
+        group: next_group(state),
+    };
+    record(state, in_id_order(model, event));
+
+    let starts = [(a, -impulse / info_a.mass), (b, impulse / info_b.mass)].map(|(body, change)| {
+        let x = state.position(body, time);
+        let v = state.velocity(body, time) + change * gap.normal;
+        (body, x, keep_contacts(model, state, body, time, x, v))
+    });
+    // Both segments must stand before anything is predicted between them.
+    for (body, x, v) in starts {
+        begin(model, state, body, time, x, v)?;
+    }
+    predict_all(model, state, a, time);
+    predict_all(model, state, b, time);
+    Ok(())
+}
+
+/// A dynamic sphere is thrown back by a static body, or comes to rest on it.
+pub(super) fn on_fixture(
+    model: &Model,
+    state: &mut State,
+    body: u32,
+    fixture: u32,
+    time: f64,
+    gap: &Gap,
+) -> Result<(), Fault> {
+    let info = &model.movers[body as usize];
+    let cascade = note_impact(model, state, body, time);
+    let natural = info.bounce * model.fixtures[fixture as usize].bounce;
+    let (restitution, kind) = restitution(natural, cascade);
+    let closing = -gap.rate;
+    let before = state.velocity(body, time);
+    let mut velocity = before - (1.0 + restitution) * closing * gap.normal;
+    let position = state.position(body, time);
+    let hit = Hit { time, position, velocity, closing, restitution: natural };
+    let settling = settle(model, state, body, fixture, &hit);
+
+    if closing > 0.0 {
+        let event = Event {
+            seq: 0,
+            time,
+            kind,
+            a: BodyRef::Dynamic(body),
+            b: Some(BodyRef::Static(fixture)),
+            point: gap.point,
+            normal: gap.normal,
+            impulse: (1.0 + restitution) * info.mass * closing,
+            vn_before: gap.rate,
+            vn_after: restitution * closing,
+            group: next_group(state),
+        };
+        record(state, in_id_order(model, event));
+    }
+    match settling {
+        Some(settling) => {
+            state.contacts[body as usize].push(settling.contact);
+            velocity = settling.velocity;
+        }
+        None => velocity = keep_contacts(model, state, body, time, position, velocity),
+    }
+    book_change(model, state, body, before, velocity);
+    restart(model, state, body, time, position, velocity)
+}
+
+/// Books what a change of velocity at a static body took and gave.
+fn book_change(model: &Model, state: &mut State, body: u32, before: DVec3, after: DVec3) {
+    let mass = model.movers[body as usize].mass;
+    // ½m(v² − v'²) as a product, which does not cancel.
+    state.account.impact_losses.add(0.5 * mass * (before - after).dot(before + after));
+    state.account.impulses.add(mass * (after - before));
+}
+
+/// Counts impacts in a row; true once there are so many that the rest of them must not lose energy.
+fn note_impact(model: &Model, state: &mut State, body: u32, time: f64) -> bool {
+    let cascade = &mut state.cascades[body as usize];
+    let follows = time - cascade.last_impact < model.params.contact_duration;
+    cascade.length = if follows { cascade.length.saturating_add(1) } else { 0 };
+    cascade.last_impact = time;
+    f64::from(cascade.length) >= model.params.collapse_count
+}
+
+fn restitution(product: f64, collapsed: bool) -> (f64, EventKind) {
+    if collapsed && product < 1.0 { (1.0, EventKind::Collapse) } else { (product, EventKind::Impact) }
+}
+
+fn next_group(state: &mut State) -> u64 {
+    state.group += 1;
+    state.group
+}

@@ -1,0 +1,214 @@
+//! Events of lasting contact: bounces that settle, surfaces that end, pressure that ceases.
+
+use glam::DVec3;
+
+use super::account::subject;
+use super::contact::{Contact, Surface, into_cone, pressure};
+use super::engine::record_contact;
+use super::model::{FixtureShape, Model};
+use super::motion::applied_force;
+use super::neighbours::first_beyond;
+use super::predict::touch_tolerance;
+use super::queue::Kind;
+use super::state::State;
+use super::{ContactState, EventKind};
+
+/// Predicts when the contacts of a body settle or end on its present segment.
+pub(super) fn predict_contact_events(model: &Model, state: &mut State, body: u32, time: f64) {
+    for index in 0..state.contacts[body as usize].len() {
+        let contact = state.contacts[body as usize][index];
+        if let Some(settled) = contact.settles_at {
+            state.predict_one(settled.max(time), Kind::Settled, body, contact.fixture);
+        }
+        if let Some(end) = contact_end(model, state, body, &contact, time) {
+            state.predict_one(end, Kind::ContactEnd, body, contact.fixture);
+        }
+    }
+}
+
+/// First time at which the body slides off the face, or is no longer pressed on.
+fn contact_end(model: &Model, state: &State, body: u32, contact: &Contact, time: f64) -> Option<f64> {
+    let off = match (contact.surface, &model.fixtures[contact.fixture as usize].shape) {
+        (Surface::Flat(_), FixtureShape::Plate(plate)) => {
+            let path = state.path(body);
+            // A rounding beyond the edge, so that what comes next meets the edge and not the face again.
+            let beyond = touch_tolerance(path.segment.x, model.movers[body as usize].radius);
+            let sides = [
+                (plate.axis_x, plate.half_x),
+                (-plate.axis_x, plate.half_x),
+                (plate.axis_y, plate.half_y),
+                (-plate.axis_y, plate.half_y),
+            ];
+            sides
+                .into_iter()
+                .filter_map(|(axis, half)| {
+                    first_beyond(path, axis, axis.dot(plate.center) + half + beyond, 0.0, time)
+                })
+                .reduce(f64::min)
+        }
+        _ => None,
+    };
+    let lifted =
+        if state.path(body).series.is_some() { lift_time(model, state, body, contact) } else { None };
+    [off, lifted].into_iter().flatten().reduce(f64::min)
+}
+
+/// Parts of a field segment at whose ends the pressure is looked at. A step of the integrator is short
+/// against the time in which a smooth force turns round twice.
+const PRESSURE_SAMPLES: u32 = 8;
+
+/// First time on a field segment at which nothing presses the body into the contact any more.
+fn lift_time(model: &Model, state: &State, body: u32, contact: &Contact) -> Option<f64> {
+    let segment = &state.segments[body as usize];
+    let pressed = |time: f64| pressure_at(model, state, body, contact, time) > 0.0;
+    let mut low = segment.start;
+    for sample in 1..=PRESSURE_SAMPLES {
+        let high = segment.start + segment.step * f64::from(sample) / f64::from(PRESSURE_SAMPLES);
+        if !pressed(high) {
+            return Some(bisect(low, high, pressed));
+        }
+        low = high;
+    }
+    None
+}
+
+/// The earliest representable time in low..=high at which `holds` no longer holds.
+fn bisect(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
+    loop {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            return high;
+        }
+        if holds(middle) { low = middle } else { high = middle }
+    }
+}
+
+fn pressure_at(model: &Model, state: &State, body: u32, contact: &Contact, time: f64) -> f64 {
+    let subject = subject(model, state, body, time);
+    let touch = contact.touch(model, subject.radius, subject.position, subject.velocity);
+    pressure(&touch, applied_force(model, &subject) / subject.mass)
+}
+
+/// How a body that has just hit a static one may go on in lasting contact.
+pub(super) struct Settling {
+    pub contact: Contact,
+    /// Velocity with nothing left that enters a surface, m/s.
+    pub velocity: DVec3,
+}
+
+/// A hit as the question of rest sees it.
+pub(super) struct Hit {
+    pub time: f64,
+    pub position: DVec3,
+    /// Velocity after the impact, m/s.
+    pub velocity: DVec3,
+    /// Normal speed before the impact, m/s, ≥ 0.
+    pub closing: f64,
+    pub restitution: f64,
+}
+
+/// Whether the bounces after a hit are over: they are if their sum has a near limit, or if they are lower
+/// than the rounding of the position. Then the body rests or slides, and the event comes at the limit
+/// time t + Σ flights = t + 2v'/(g(1−e)).
+pub(super) fn settle(model: &Model, state: &State, body: u32, fixture: u32, hit: &Hit) -> Option<Settling> {
+    let mover = &model.movers[body as usize];
+    let mut contact = Contact::new(fixture, &model.fixtures[fixture as usize], hit.position);
+    let mut at_hit = subject(model, state, body, hit.time);
+    at_hit.velocity = hit.velocity;
+    let touch = contact.touch(model, mover.radius, hit.position, hit.velocity);
+    let pressing = pressure(&touch, applied_force(model, &at_hit) / mover.mass);
+    if pressing <= 0.0 {
+        return None;
+    }
+    let speed = hit.restitution * hit.closing;
+    let flights = 2.0 * speed / (pressing * (1.0 - hit.restitution));
+    let has_limit =
+        hit.restitution < 1.0 && speed <= model.params.rest_speed && flights <= model.params.rest_time;
+    let below_rounding = speed * speed <= 2.0 * pressing * touch_tolerance(hit.position, mover.radius);
+    if !has_limit && !below_rounding {
+        return None;
+    }
+    contact.settles_at = Some(hit.time + if has_limit { flights } else { 0.0 });
+    let touches: Vec<DVec3> = state.contacts[body as usize]
+        .iter()
+        .chain([&contact])
+        .map(|contact| contact.touch(model, mover.radius, hit.position, hit.velocity).towards)
+        .collect();
+    Some(Settling { contact, velocity: into_cone(hit.velocity, &touches) })
+}
+
+/// The rounding of a velocity: below this fraction of it a normal component is no motion.
+const VELOCITY_ROUNDING: f64 = 1e-13;
+
+/// Drops the contacts that a new velocity leaves or runs into (the impact follows at once), and takes
+/// the rounding of the others out of it. Gives the velocity.
+pub(super) fn keep_contacts(
+    model: &Model,
+    state: &mut State,
+    body: u32,
+    time: f64,
+    position: DVec3,
+    velocity: DVec3,
+) -> DVec3 {
+    if state.contacts[body as usize].is_empty() {
+        return velocity;
+    }
+    let radius = model.movers[body as usize].radius;
+    let tolerance = VELOCITY_ROUNDING * velocity.length();
+    let mut kept = Vec::new();
+    let mut velocity_left = velocity;
+    for contact in std::mem::take(&mut state.contacts[body as usize]) {
+        let touch = contact.touch(model, radius, position, velocity);
+        let entering = velocity.dot(touch.towards);
+        if entering.abs() <= tolerance {
+            velocity_left -= velocity_left.dot(touch.towards) * touch.towards;
+            kept.push(contact);
+        } else if entering < 0.0 {
+            record_contact(model, state, time, EventKind::LiftOff, body, contact.fixture);
+        }
+    }
+    state.contacts[body as usize] = kept;
+    velocity_left
+}
+
+/// Drops the contacts that nothing presses on at the start of a segment, and brings the others up to date
+/// (a body rolls from an edge onto the face).
+pub(super) fn prune_contacts(model: &Model, state: &mut State, body: u32, time: f64, x: DVec3, v: DVec3) {
+    if state.contacts[body as usize].is_empty() {
+        return;
+    }
+    let radius = model.movers[body as usize].radius;
+    let mut at = subject(model, state, body, time);
+    (at.position, at.velocity) = (x, v);
+    let free = applied_force(model, &at) / at.mass;
+    let old = std::mem::take(&mut state.contacts[body as usize]);
+    let touches: Vec<DVec3> = old.iter().map(|contact| contact.touch(model, radius, x, v).towards).collect();
+    let constrained = into_cone(free, &touches);
+    let alone = old.len() == 1;
+    let mut kept = Vec::new();
+    for (contact, towards) in old.into_iter().zip(touches) {
+        let pressed = if alone {
+            pressure(&contact.touch(model, radius, x, v), free) > 0.0
+        } else {
+            constrained.dot(towards) >= -VELOCITY_ROUNDING * free.length() && free != DVec3::ZERO
+        };
+        if pressed {
+            let fresh = Contact::new(contact.fixture, &model.fixtures[contact.fixture as usize], x);
+            let surface = if contact.is_round() { fresh.surface } else { contact.surface };
+            kept.push(Contact { surface, ..contact });
+        } else {
+            record_contact(model, state, time, EventKind::LiftOff, body, contact.fixture);
+        }
+    }
+    state.contacts[body as usize] = kept;
+}
+
+/// How a body moves at a time, for people: a body in contact that neither moves nor is driven rests.
+pub(super) fn contact_state(state: &State, body: u32, time: f64) -> ContactState {
+    if state.contacts[body as usize].is_empty() {
+        return ContactState::Flight;
+    }
+    let path = state.path(body);
+    let still = path.velocity(time) == DVec3::ZERO && path.acceleration(time) == DVec3::ZERO;
+    if still { ContactState::Rest } else { ContactState::Slide }
+}

@@ -1,0 +1,125 @@
+//! Checks that look at geometry and change nothing: overlaps, bodies outside the map, occupied tiles.
+
+use glam::DVec3;
+
+use super::Tiling;
+use super::account::present;
+use super::model::{Identity, Model};
+use super::predict::{sphere_fixture_gap, sphere_sphere_gap};
+use super::state::State;
+use crate::scene::{Diagnostic, Severity};
+
+/// Deepest overlap at `time` of any two bodies that share a tile, m, ≥ 0.
+pub(super) fn worst_overlap(model: &Model, state: &State, time: f64) -> f64 {
+    let mut worst: f64 = 0.0;
+    for_each_neighbour(model, state, |body, other| {
+        worst = worst.max(-distance(model, state, body, other, time));
+    });
+    worst
+}
+
+/// Warnings about the start: what overlaps, and what lies outside the map.
+pub(super) fn start_warnings(model: &Model, state: &State) -> Vec<Diagnostic> {
+    let mut warnings = Vec::new();
+    for_each_neighbour(model, state, |body, other| {
+        let depth = -distance(model, state, body, other, state.now);
+        if depth > model.params.contact_distance {
+            let (a, b) = (&model.movers[body as usize].identity, other.identity(model));
+            warnings.push(warning(
+                a,
+                format!("bodies {} and {} overlap by {depth:.3e} m at the start", a.label, b.label),
+                "move them apart; the run goes on, but they can part only by moving away from each other",
+            ));
+        }
+    });
+    let size = model.grid.tile_size * DVec3::from(model.grid.counts.map(f64::from));
+    for body in present(model) {
+        let at = state.position(body, state.now);
+        if at.cmplt(DVec3::ZERO).any() || at.cmpgt(size).any() {
+            let identity = &model.movers[body as usize].identity;
+            warnings.push(warning(
+                identity,
+                format!("body {} starts outside the map", identity.label),
+                "move it inside or enlarge the map; it is simulated all the same",
+            ));
+        }
+    }
+    warnings.sort_by_key(|warning| warning.key);
+    warnings
+}
+
+fn warning(identity: &Identity, message: String, hint: &str) -> Diagnostic {
+    Diagnostic {
+        severity: Severity::Warning,
+        position: None,
+        path: String::new(),
+        message,
+        hint: hint.into(),
+        key: Some(identity.key),
+    }
+}
+
+/// The other one of a pair.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Other {
+    Moving(u32),
+    Fixed(u32),
+}
+
+impl Other {
+    fn identity(self, model: &Model) -> &Identity {
+        match self {
+            Self::Moving(index) => &model.movers[index as usize].identity,
+            Self::Fixed(index) => &model.fixtures[index as usize].identity,
+        }
+    }
+}
+
+fn distance(model: &Model, state: &State, body: u32, other: Other, time: f64) -> f64 {
+    let mover = state.mover(model, body);
+    match other {
+        Other::Moving(index) => sphere_sphere_gap(mover, state.mover(model, index), time).distance,
+        Other::Fixed(index) => sphere_fixture_gap(mover, &model.fixtures[index as usize], time).distance,
+    }
+}
+
+/// Every pair that shares a tile, once, in order.
+fn for_each_neighbour(model: &Model, state: &State, mut visit: impl FnMut(u32, Other)) {
+    let mut others = Vec::new();
+    for body in present(model) {
+        others.clear();
+        for tile in state.registered[body as usize].tiles() {
+            let key = model.grid.key(tile);
+            let moving = state.moving.bodies(key).iter().filter(|other| **other > body);
+            others.extend(moving.map(|other| Other::Moving(*other)));
+            others.extend(model.static_tiles.bodies(key).iter().map(|other| Other::Fixed(*other)));
+        }
+        others.extend(model.static_tiles.large().iter().map(|other| Other::Fixed(*other)));
+        others.sort_unstable();
+        others.dedup();
+        for other in &others {
+            visit(body, *other);
+        }
+    }
+}
+
+/// The occupied tiles, at most `limit` of them, those with dynamic bodies first.
+pub(super) fn tiling(model: &Model, state: &State, limit: usize) -> Tiling {
+    let grid = &model.grid;
+    let mut keys = state.moving.occupied();
+    let with_moving = keys.len();
+    let mut statics = model.static_tiles.occupied();
+    statics.retain(|key| keys[..with_moving].binary_search(key).is_err());
+    keys.extend(statics);
+    let truncated = keys.len() > limit;
+    keys.truncate(limit);
+    keys.sort_unstable();
+    let occupied = keys
+        .into_iter()
+        .map(|key| {
+            let fixed = model.static_tiles.bodies(key).len() as u32;
+            (grid.tile_of_key(key), fixed, state.moving.bodies(key).len() as u32)
+        })
+        .collect();
+    Tiling { tile_size: grid.tile_size, tiles: grid.counts, occupied, truncated }
+}

@@ -1,0 +1,8 @@
+//! How bodies move between events: closed forms where the forces are constant, a series where not.
+
+mod law;
+mod quadrature;
+mod radau;
+
+pub(super) use law::{SegmentError, acceleration_of, applied_force, begin_segment};
+pub(super) use quadrature::integrate;

@@ -1,0 +1,232 @@
+//! One step of the 15th-order Gauss–Radau integrator for a body in a field.
+//!
+//! Everhart 1985, "An efficient integrator that uses Gauss-Radau spacings"; step control after Rein &
+//! Spiegel 2015 (IAS15, MNRAS 446, eq. 9–11). The acceleration is a polynomial of degree 7 through eight
+//! Radau nodes, so the step itself is the dense output: position and velocity are its integrals.
+
+use glam::DVec3;
+
+use crate::sim::segment::{SERIES, Segment, Series};
+
+/// Left Radau nodes on [0, 1]: 0 and the zeros of a Jacobi polynomial (Everhart 1985, table 1).
+const NODES: [f64; SERIES + 1] = [
+    0.0,
+    0.056_262_560_536_922_146_465_652_191_031_8,
+    0.180_240_691_736_892_364_987_579_942_780,
+    0.352_624_717_113_169_637_373_907_769_648,
+    0.547_153_626_330_555_383_001_448_554_766,
+    0.734_210_177_215_410_531_523_210_605_558,
+    0.885_320_946_839_095_768_090_359_771_030,
+    0.977_520_613_561_287_501_891_174_488_626,
+];
+
+/// `TO_POWERS[n][i]`: coefficient of s^(i+1) in s(s−h₁)…(s−hₙ), which turns divided differences into b.
+const TO_POWERS: [[f64; SERIES]; SERIES] = to_powers();
+
+const fn to_powers() -> [[f64; SERIES]; SERIES] {
+    let mut table = [[0.0; SERIES]; SERIES];
+    table[0][0] = 1.0;
+    let mut n = 1;
+    while n < SERIES {
+        let mut i = 0;
+        while i <= n {
+            let raised = if i > 0 { table[n - 1][i - 1] } else { 0.0 };
+            table[n][i] = raised - NODES[n] * table[n - 1][i];
+            i += 1;
+        }
+        n += 1;
+    }
+    table
+}
+
+/// Step ratio below which a step is repeated, and whose inverse bounds growth (Rein & Spiegel 2015).
+const SAFETY: f64 = 0.25;
+/// Corrector passes before a step counts as not convergent; smooth fields need 2 to 6.
+const MAX_PASSES: u32 = 12;
+/// A change of b₆ this small against the acceleration ends the corrector: rounding.
+const CONVERGED: f64 = 1e-16;
+/// Steps are never longer than this, s: a field may vary in time.
+const LONGEST_STEP: f64 = 100.0;
+/// The acceleration counts as at least this fraction of speed per step when the error is judged, so that
+/// a body whose acceleration fades (drag at terminal speed) is not integrated to digits nobody can see.
+const SPEED_FLOOR: f64 = 1e-3;
+
+/// Where a step begins.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::sim) struct RadauStart<'a> {
+    pub time: f64,
+    pub x: DVec3,
+    pub v: DVec3,
+    /// First guess of the step, s; 0 asks for one from the field itself.
+    pub step: f64,
+    /// The series of the step just ended (with its length), to extrapolate from.
+    pub previous: Option<(&'a Series, f64)>,
+    /// Largest accepted |b₆|/|a|: `SimParams::field_tolerance`.
+    pub tolerance: f64,
+}
+
+/// Why no step could be made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::sim) enum RadauError {
+    NotFinite,
+    /// The step fell below the resolution of time: the field is singular or not smooth here.
+    Stalled,
+}
+
+/// One accepted step as a segment, and the step to try next.
+pub(in crate::sim) fn radau_step(
+    start: &RadauStart<'_>,
+    evaluations: &mut u64,
+    mut acceleration: impl FnMut(f64, DVec3, DVec3) -> DVec3,
+) -> Result<(Segment, Series, f64), RadauError> {
+    let mut field = |time, x, v| {
+        *evaluations += 1;
+        acceleration(time, x, v)
+    };
+    let a0 = field(start.time, start.x, start.v);
+    if !(a0.is_finite() && start.x.is_finite() && start.v.is_finite()) {
+        return Err(RadauError::NotFinite);
+    }
+    let mut step = match start.step {
+        given if given > 0.0 => given.min(LONGEST_STEP),
+        _ => first_guess(start, a0, &mut field),
+    };
+    let mut guess =
+        start.previous.map_or(Series::default(), |(series, length)| extrapolate(series, step / length));
+    loop {
+        let resolution = 1e-15 * start.time.abs().max(1e-3);
+        if step < resolution {
+            return Err(RadauError::Stalled);
+        }
+        let Attempt { series, converged, error } = correct(start, a0, step, guess, &mut field);
+        // ẍ is a power series in the step, so b₆ scales with step⁷.
+        let ratio = if error == 0.0 { f64::INFINITY } else { libm::pow(start.tolerance / error, 1.0 / 7.0) };
+        if !converged || ratio < SAFETY {
+            step *= if converged { ratio.max(0.02) } else { SAFETY };
+            guess = Series::default();
+            continue;
+        }
+        let segment = Segment {
+            start: start.time,
+            end: start.time + step,
+            x: start.x,
+            v: start.v,
+            a: a0,
+            acceleration_bound: a0.length() + series.bound(),
+            step,
+        };
+        return Ok((segment, series, (step * ratio.min(1.0 / SAFETY)).min(LONGEST_STEP)));
+    }
+}
+
+struct Attempt {
+    series: Series,
+    converged: bool,
+    /// |b₆| over the largest acceleration of the step.
+    error: f64,
+}
+
+/// Gauss–Seidel passes over the nodes until the last coefficient stands still.
+fn correct(
+    start: &RadauStart<'_>,
+    a0: DVec3,
+    step: f64,
+    guess: Series,
+    field: &mut impl FnMut(f64, DVec3, DVec3) -> DVec3,
+) -> Attempt {
+    let mut series = guess;
+    let mut differences = differences_of(&series);
+    let mut last_change = f64::INFINITY;
+    let mut converged = false;
+    let mut largest = a0.length();
+    for _ in 0..MAX_PASSES {
+        let mut change = 0.0;
+        largest = a0.length();
+        for n in 1..=SERIES {
+            let tau = NODES[n] * step;
+            let x = start.x + tau * (start.v + tau * (0.5 * a0 + series.position_term(NODES[n])));
+            let v = start.v + tau * (a0 + series.velocity_term(NODES[n]));
+            let a = field(start.time + tau, x, v);
+            if !a.is_finite() {
+                return Attempt { series, converged: false, error: f64::INFINITY };
+            }
+            largest = largest.max(a.length());
+            let delta = update_difference(&mut differences, n, a - a0);
+            for i in 0..n {
+                series.b[i] += TO_POWERS[n - 1][i] * delta;
+            }
+            if n == SERIES {
+                change = delta.length();
+            }
+        }
+        let relative = change / scale(largest, start.v, step);
+        // The corrector stops at rounding, or when rounding keeps it from coming nearer.
+        if relative <= CONVERGED || (relative < 1e-12 && relative >= last_change) {
+            converged = true;
+            break;
+        }
+        if relative > 1e3 * last_change {
+            break;
+        }
+        last_change = relative;
+    }
+    converged |= last_change < 1e-3 * start.tolerance;
+    Attempt { series, converged, error: series.b[SERIES - 1].length() / scale(largest, start.v, step) }
+}
+
+fn scale(largest_acceleration: f64, v: DVec3, step: f64) -> f64 {
+    largest_acceleration.max(SPEED_FLOOR * v.length() / step).max(f64::MIN_POSITIVE)
+}
+
+/// The n-th divided difference of the accelerations; gives its change.
+fn update_difference(differences: &mut [DVec3; SERIES], n: usize, rise: DVec3) -> DVec3 {
+    let mut value = rise / NODES[n];
+    for k in 1..n {
+        value = (value - differences[k - 1]) / (NODES[n] - NODES[k]);
+    }
+    let delta = value - differences[n - 1];
+    differences[n - 1] = value;
+    delta
+}
+
+/// Divided differences of a series given by powers: inverts [`TO_POWERS`], which is unit triangular.
+fn differences_of(series: &Series) -> [DVec3; SERIES] {
+    let mut g = series.b;
+    for n in (0..SERIES).rev() {
+        for i in 0..n {
+            let top = g[n];
+            g[i] -= TO_POWERS[n][i] * top;
+        }
+    }
+    g
+}
+
+/// The same polynomial, seen from the end of its step and scaled to a step `q` times as long.
+fn extrapolate(series: &Series, q: f64) -> Series {
+    if q > 4.5 {
+        return Series::default();
+    }
+    // a(1 + s) = Σ b_k (1 + s)^(k+1): binomial expansion, without the constant term.
+    let mut shifted = Series::default();
+    let mut power = 1.0;
+    for i in 0..SERIES {
+        power *= q;
+        let mut sum = DVec3::ZERO;
+        let mut binomial = 1.0; // C(k+1, i+1) for k = i
+        for k in i..SERIES {
+            sum += binomial * series.b[k];
+            binomial *= (k + 2) as f64 / (k + 1 - i) as f64;
+        }
+        shifted.b[i] = power * sum;
+    }
+    shifted
+}
+
+/// A tenth of the time in which the acceleration changes by itself along the velocity.
+fn first_guess(start: &RadauStart<'_>, a0: DVec3, field: &mut impl FnMut(f64, DVec3, DVec3) -> DVec3) -> f64 {
+    const PROBE: f64 = 1e-6;
+    let ahead = field(start.time + PROBE, start.x + PROBE * start.v, start.v + PROBE * a0);
+    let jerk = (ahead - a0).length() / PROBE;
+    let size = a0.length();
+    if jerk > 0.0 && size > 0.0 { (0.1 * size / jerk).clamp(1e-5, 0.1) } else { 0.01 }
+}

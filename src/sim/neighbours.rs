@@ -1,0 +1,237 @@
+//! Who may meet whom: registration in tiles, the look through them, and the predictions that follow.
+
+use glam::DVec3;
+
+use super::model::Model;
+use super::predict;
+use super::queue::Kind;
+use super::segment::Path;
+use super::state::{Scratch, State};
+use super::tiles::TileRange;
+
+/// How much larger than the body its registered box is, m: more than root finding can be off.
+fn margin(model: &Model, radius: f64, position: DVec3) -> f64 {
+    1e-6 * radius + 1e-12 * model.grid.tile_size.max_element().max(position.abs().max_element())
+}
+
+/// Tiles of a body's box, rounded outwards.
+fn range_at(model: &Model, radius: f64, position: DVec3) -> TileRange {
+    let reach = radius + 2.0 * margin(model, radius, position);
+    model.grid.range(position - reach, position + reach)
+}
+
+/// Enters a body that is in no tile yet.
+pub(super) fn enter(model: &Model, state: &mut State, body: u32, time: f64) {
+    let position = state.position(body, time);
+    let range = range_at(model, model.movers[body as usize].radius, position);
+    state.registered[body as usize] = range;
+    state.moving.insert(&model.grid, range, body);
+}
+
+/// Makes all predictions about a body that has just begun a segment at `time`.
+pub(super) fn predict_all(model: &Model, state: &mut State, body: u32, time: f64) {
+    let end = state.segments[body as usize].end;
+    if end.is_finite() {
+        state.predict_one(end, Kind::SegmentEnd, body, 0);
+    }
+    predict_leaving(model, state, body, time);
+    predict_core_passes(model, state, body, time);
+    super::lasting::predict_contact_events(model, state, body, time);
+    let range = state.registered[body as usize];
+    predict_neighbours(model, state, body, range, None, time);
+}
+
+/// Moves a body to the tiles it is in now and predicts against the bodies it finds there.
+pub(super) fn reregister(model: &Model, state: &mut State, body: u32, time: f64) {
+    let old = state.registered[body as usize];
+    let new = range_at(model, model.movers[body as usize].radius, state.position(body, time));
+    if new != old {
+        state.moving.change(&model.grid, old, new, body);
+        state.registered[body as usize] = new;
+        state.counters.tile_crossings += 1;
+        predict_neighbours(model, state, body, new, Some(old), time);
+    }
+    predict_leaving(model, state, body, time);
+}
+
+/// Predicts when the body's box leaves its registered tiles: never too late, perhaps a little early.
+fn predict_leaving(model: &Model, state: &mut State, body: u32, time: f64) {
+    let (low, high) = model.grid.bounds(&state.registered[body as usize]);
+    if low == DVec3::NEG_INFINITY && high == DVec3::INFINITY {
+        return;
+    }
+    let radius = model.movers[body as usize].radius;
+    let path = state.path(body);
+    let margin = margin(model, radius, path.position(time));
+    let reach = radius + margin;
+    let leaving = DVec3::AXES
+        .into_iter()
+        .zip(high.to_array().into_iter().zip(low.to_array()))
+        .flat_map(|(axis, (high, low))| [(axis, high - reach), (-axis, -(low + reach))])
+        .filter(|(_, limit)| limit.is_finite())
+        .filter_map(|(axis, limit)| first_beyond(path, axis, limit, 0.5 * margin, time))
+        .fold(f64::INFINITY, f64::min);
+    if leaving <= path.segment.end && leaving.is_finite() {
+        state.predict_one(leaving, Kind::LeaveTiles, body, 0);
+    }
+}
+
+/// First time ≥ `from` at which direction·x reaches `limit`, or comes within `early` of it on a path that
+/// is not a parabola.
+pub(super) fn first_beyond(
+    path: Path<'_>,
+    direction: DVec3,
+    limit: f64,
+    early: f64,
+    from: f64,
+) -> Option<f64> {
+    let segment = path.segment;
+    let mut time = from;
+    loop {
+        let distance = limit - direction.dot(path.position(time));
+        let rate = -direction.dot(path.velocity(time));
+        if path.series.is_none() {
+            return first_root(distance, rate, -direction.dot(segment.a)).map(|tau| time + tau);
+        }
+        if distance <= early {
+            return Some(time);
+        }
+        // |ẍ| ≤ A: the limit is not reached before distance + rate·δ − ½Aδ² = 0.
+        let bound = segment.acceleration_bound;
+        let root = (rate * rate + 2.0 * bound * distance).sqrt();
+        let step = if rate < 0.0 {
+            2.0 * distance / (root - rate)
+        } else if bound > 0.0 {
+            (rate + root) / bound
+        } else {
+            return None;
+        };
+        if time + step > segment.end {
+            return None;
+        }
+        if time + step <= time {
+            return Some(time);
+        }
+        time += step;
+    }
+}
+
+/// First τ ≥ 0 with distance + rate·τ + ½·bend·τ² ≤ 0 and falling.
+fn first_root(distance: f64, rate: f64, bend: f64) -> Option<f64> {
+    if distance <= 0.0 && rate < 0.0 {
+        return Some(0.0);
+    }
+    let distance = distance.max(0.0);
+    if bend < 0.0 {
+        let root = (rate * rate - 2.0 * bend * distance).sqrt();
+        return Some(if rate < 0.0 { 2.0 * distance / (root - rate) } else { (rate + root) / -bend });
+    }
+    let discriminant = rate * rate - 2.0 * bend * distance;
+    (rate < 0.0 && discriminant >= 0.0).then(|| 2.0 * distance / (discriminant.sqrt() - rate))
+}
+
+fn predict_core_passes(model: &Model, state: &mut State, body: u32, time: f64) {
+    for (index, force) in (0u32..).zip(&model.forces) {
+        let super::force::Law::Point { center, intensity } = force.law else { continue };
+        if intensity <= 0.0 {
+            continue;
+        }
+        if let Some(pass) = predict::core_pass(state.path(body), center, model.params.core_radius, time) {
+            state.predict_one(pass.max(time), Kind::CorePass, body, index);
+        }
+    }
+}
+
+/// Predicts impacts with everything in the tiles of `range` that are not in `known`.
+fn predict_neighbours(
+    model: &Model,
+    state: &mut State,
+    body: u32,
+    range: TileRange,
+    known: Option<TileRange>,
+    time: f64,
+) {
+    let mut scratch = std::mem::take(&mut state.scratch);
+    collect(model, state, &mut scratch, body, range, known);
+    for (kind, other) in scratch.found.drain(..) {
+        match kind {
+            Kind::Impact => predict_pair(model, state, body, other, f64::NEG_INFINITY, time),
+            _ => predict_fixture(model, state, body, other, f64::NEG_INFINITY, time),
+        }
+    }
+    state.scratch = scratch;
+}
+
+/// The bodies in those tiles, each once.
+fn collect(
+    model: &Model,
+    state: &State,
+    scratch: &mut Scratch,
+    body: u32,
+    range: TileRange,
+    known: Option<TileRange>,
+) {
+    scratch.begin(state.segments.len(), model.fixtures.len());
+    let epoch = scratch.epoch;
+    scratch.seen_moving[body as usize] = epoch;
+    for tile in range.tiles().filter(|tile| !known.is_some_and(|known| known.contains(*tile))) {
+        let key = model.grid.key(tile);
+        for other in state.moving.bodies(key) {
+            if std::mem::replace(&mut scratch.seen_moving[*other as usize], epoch) != epoch {
+                scratch.found.push((Kind::Impact, *other));
+            }
+        }
+        for other in model.static_tiles.bodies(key) {
+            if std::mem::replace(&mut scratch.seen_fixed[*other as usize], epoch) != epoch {
+                scratch.found.push((Kind::FixtureImpact, *other));
+            }
+        }
+    }
+    if known.is_none() {
+        scratch.found.extend(model.static_tiles.large().iter().map(|other| (Kind::FixtureImpact, *other)));
+    }
+}
+
+/// Predicts the next impact of two dynamic bodies. `from` is −∞ but where an earlier search gave up.
+pub(super) fn predict_pair(model: &Model, state: &mut State, a: u32, b: u32, from: f64, time: f64) {
+    // The order of the two must not matter to the last bit.
+    let (a, b) = (a.min(b), a.max(b));
+    state.counters.pair_tests += 1;
+    let hold = model.params.contact_duration;
+    if let Some(impact) = predict::sphere_sphere(state.mover(model, a), state.mover(model, b), hold, from) {
+        state.predict_pair(impact.max(time), a, b);
+    }
+}
+
+/// Predicts the next impact of a dynamic body with a static one it is not in lasting contact with.
+pub(super) fn predict_fixture(
+    model: &Model,
+    state: &mut State,
+    body: u32,
+    fixture: u32,
+    from: f64,
+    time: f64,
+) {
+    if state.is_touching(body, fixture) {
+        return;
+    }
+    state.counters.pair_tests += 1;
+    let impact = predict::sphere_fixture(state.mover(model, body), &model.fixtures[fixture as usize], from);
+    if let Some(impact) = impact {
+        state.predict_one(impact.max(time), Kind::FixtureImpact, body, fixture);
+    }
+}
+
+impl Scratch {
+    fn begin(&mut self, moving: usize, fixed: usize) {
+        self.found.clear();
+        self.epoch = self.epoch.wrapping_add(1);
+        if self.epoch == 0 {
+            self.seen_moving.fill(0);
+            self.seen_fixed.fill(0);
+            self.epoch = 1;
+        }
+        self.seen_moving.resize(moving, 0);
+        self.seen_fixed.resize(fixed, 0);
+    }
+}

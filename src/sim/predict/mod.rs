@@ -1,0 +1,74 @@
+//! Times of impact: the first root of a gap function along two segments. One file per shape pair.
+
+mod advance;
+mod sphere_plane;
+mod sphere_sphere;
+
+use glam::DVec3;
+
+use super::model::{Fixture, FixtureShape};
+use super::segment::Path;
+
+pub(super) use sphere_plane::{Feature, closest_on_plate};
+
+/// Distance of two surfaces along two segments at one time, and its first two derivatives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Gap {
+    /// m; negative where they overlap.
+    pub distance: f64,
+    /// m/s; negative when closing.
+    pub rate: f64,
+    /// Second derivative of the distance, m/s²: negative when driven together.
+    pub bend: f64,
+    /// Unit vector from the first body to the second.
+    pub normal: DVec3,
+    /// Nearest point on the surface of the first body (a sphere), m.
+    pub point: DVec3,
+}
+
+/// A sphere on its way.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Mover<'a> {
+    pub path: Path<'a>,
+    pub radius: f64,
+}
+
+/// Surfaces at rest against each other to within this are taken to touch, m. A few roundings at the
+/// coordinate size.
+pub(super) fn touch_tolerance(at: DVec3, radius: f64) -> f64 {
+    8.0 * f64::EPSILON * at.abs().max_element().max(radius)
+}
+
+/// First time, not before `from` nor before both segments begin and not after either ends, at which two
+/// dynamic spheres touch while closing. A pure function of its arguments; `from` is −∞ but for a search
+/// that goes on from where an earlier one gave up. A pair that lies against each other under pressure is
+/// let go on for `hold` seconds (its overlap stays below ½·a·hold²).
+pub(super) fn sphere_sphere(a: Mover<'_>, b: Mover<'_>, hold: f64, from: f64) -> Option<f64> {
+    sphere_sphere::first_contact(a, b, hold, from)
+}
+
+pub(super) fn sphere_sphere_gap(a: Mover<'_>, b: Mover<'_>, time: f64) -> Gap {
+    sphere_sphere::gap(a, b, time)
+}
+
+/// As [`sphere_sphere`], against a static body. The match is the list of supported pairs.
+pub(super) fn sphere_fixture(mover: Mover<'_>, fixture: &Fixture, from: f64) -> Option<f64> {
+    match &fixture.shape {
+        FixtureShape::Sphere { radius } => {
+            sphere_sphere::first_contact_fixed(mover, fixture.position, *radius, from)
+        }
+        FixtureShape::Plate(plate) => sphere_plane::first_contact(mover, plate, from),
+    }
+}
+
+pub(super) fn sphere_fixture_gap(mover: Mover<'_>, fixture: &Fixture, time: f64) -> Gap {
+    match &fixture.shape {
+        FixtureShape::Sphere { radius } => sphere_sphere::gap_fixed(mover, fixture.position, *radius, time),
+        FixtureShape::Plate(plate) => sphere_plane::gap(mover, plate, time),
+    }
+}
+
+/// First time at which the centre of a body comes within `core` of a point attractor.
+pub(super) fn core_pass(path: Path<'_>, center: DVec3, core: f64, from: f64) -> Option<f64> {
+    sphere_sphere::first_contact_fixed(Mover { path, radius: 0.0 }, center, core, from)
+}

@@ -1,0 +1,80 @@
+//! The grid: map size and counts, and the tiles a box touches. Border tiles reach to infinity, so that
+//! nothing is lost outside the map.
+
+use glam::DVec3;
+
+use crate::scene::Map;
+
+/// nx×ny×nz tiles over the map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::sim) struct Grid {
+    pub tile_size: DVec3,
+    pub counts: [u32; 3],
+}
+
+/// A box of tiles, both ends included.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(in crate::sim) struct TileRange {
+    pub low: [u32; 3],
+    pub high: [u32; 3],
+}
+
+impl Grid {
+    pub fn new(map: &Map) -> Self {
+        let [x, y, z] = map.tiles.map(f64::from);
+        Self { tile_size: map.size / DVec3::new(x, y, z), counts: map.tiles }
+    }
+
+    /// Tiles that the box from `low` to `high` (m) touches.
+    pub fn range(&self, low: DVec3, high: DVec3) -> TileRange {
+        let index = |at: DVec3| -> [u32; 3] {
+            let tile = (at / self.tile_size).to_array();
+            // The cast saturates, so that anything outside the map goes to a border tile.
+            std::array::from_fn(|axis| (tile[axis].max(0.0) as u32).min(self.counts[axis] - 1))
+        };
+        TileRange { low: index(low), high: index(high) }
+    }
+
+    /// Planes that bound a range, m; infinite on a side that ends at the border.
+    pub fn bounds(&self, range: &TileRange) -> (DVec3, DVec3) {
+        let size = self.tile_size.to_array();
+        let low = std::array::from_fn(|axis| match range.low[axis] {
+            0 => f64::NEG_INFINITY,
+            index => f64::from(index) * size[axis],
+        });
+        let high = std::array::from_fn(|axis| match range.high[axis] {
+            index if index + 1 >= self.counts[axis] => f64::INFINITY,
+            index => f64::from(index + 1) * size[axis],
+        });
+        (DVec3::from_array(low), DVec3::from_array(high))
+    }
+
+    /// One number for a tile, for maps and for the order of lists.
+    pub fn key(&self, tile: [u32; 3]) -> u64 {
+        let [x, y, z] = tile.map(u64::from);
+        let [_, ny, nz] = self.counts.map(u64::from);
+        (x * ny + y) * nz + z
+    }
+
+    pub fn tile_of_key(&self, key: u64) -> [u32; 3] {
+        let [_, ny, nz] = self.counts.map(u64::from);
+        [(key / (ny * nz)) as u32, ((key / nz) % ny) as u32, (key % nz) as u32]
+    }
+}
+
+impl TileRange {
+    pub fn len(&self) -> u64 {
+        (0..3).map(|axis| u64::from(self.high[axis] - self.low[axis]) + 1).product()
+    }
+
+    pub fn contains(&self, tile: [u32; 3]) -> bool {
+        (0..3).all(|axis| self.low[axis] <= tile[axis] && tile[axis] <= self.high[axis])
+    }
+
+    pub fn tiles(self) -> impl Iterator<Item = [u32; 3]> {
+        let Self { low, high } = self;
+        (low[0]..=high[0]).flat_map(move |x| {
+            (low[1]..=high[1]).flat_map(move |y| (low[2]..=high[2]).map(move |z| [x, y, z]))
+        })
+    }
+}

@@ -1,0 +1,9 @@
+//! The uniform grid that tells which bodies are near each other.
+
+mod grid;
+mod moving;
+mod statics;
+
+pub(super) use grid::{Grid, TileRange};
+pub(super) use moving::MovingTiles;
+pub(super) use statics::StaticTiles;
