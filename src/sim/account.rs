@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::force::Subject;
 use super::model::Model;
-use super::motion::{acceleration_of, integrate};
+use super::motion::{applied_force, integrate};
 use super::state::State;
 use super::{Energy, Momentum};
 
@@ -182,16 +182,17 @@ fn dissipated(model: &Model, state: &State, body: u32, time: f64) -> f64 {
     })
 }
 
-/// ∫ F dt of all forces on the body along its segment up to `time`, N·s. Along a field segment the force
-/// law itself is integrated over the path, which checks the integrator.
+/// ∫ F dt of all forces on the body along its segment up to `time`, N·s. In free flight through a field the
+/// force law itself is integrated over the path, which checks the integrator; in contact, where the
+/// force of the surface is what the motion makes it, the change of momentum is taken.
 fn force_impulse(model: &Model, state: &State, body: u32, time: f64) -> DVec3 {
     let segment = &state.segments[body as usize];
     let mass = model.movers[body as usize].mass;
     if segment.step == 0.0 {
         return mass * (time - segment.start) * segment.a;
     }
-    integrate(segment.start, time, DVec3::ZERO, |at| {
-        let subject = subject(model, state, body, at);
-        mass * acceleration_of(model, &state.contacts[body as usize], &subject)
-    })
+    if segment.constrained {
+        return mass * (state.velocity(body, time) - segment.v);
+    }
+    integrate(segment.start, time, DVec3::ZERO, |at| applied_force(model, &subject(model, state, body, at)))
 }

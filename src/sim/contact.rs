@@ -130,7 +130,13 @@ pub(super) fn into_cone(vector: DVec3, towards: &[DVec3]) -> DVec3 {
     best.unwrap_or(DVec3::ZERO)
 }
 
-/// Acceleration that presses the body into the contact, m/s²; negative when nothing holds it there.
+/// Acceleration that presses the body into the contact, m/s²; not above zero when nothing holds it there.
 pub(super) fn pressure(touch: &Touch, free: DVec3) -> f64 {
     free.dot(touch.towards) - touch.centripetal
+}
+
+/// The rounding of [`pressure`]: a contact is made above it and left below its negative, so that a body
+/// on the point of lifting off does not do both for ever.
+pub(super) fn pressure_rounding(touch: &Touch, free: DVec3) -> f64 {
+    1e-12 * (free.length() + touch.centripetal)
 }

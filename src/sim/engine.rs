@@ -94,8 +94,7 @@ fn meet(model: &Model, state: &mut State, next: &Predicted) -> Result<(), Fault>
 fn meet_fixture(model: &Model, state: &mut State, next: &Predicted) -> Result<(), Fault> {
     let (body, index, time) = (next.a, next.b, next.time);
     let gap = sphere_fixture_gap(state.mover(model, body), &model.fixtures[index as usize], time);
-    let touches = gap.rate < 0.0 || (gap.rate == 0.0 && gap.bend < 0.0);
-    if !touches || !is_closed(&gap, model.movers[body as usize].radius) {
+    if !gap.is_closing() || !is_closed(&gap, model.movers[body as usize].radius) {
         predict_fixture(model, state, body, index, time, time);
         return Ok(());
     }

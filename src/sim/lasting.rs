@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::account::subject;
-use super::contact::{Contact, Surface, into_cone, pressure};
+use super::contact::{Contact, Surface, into_cone, pressure, pressure_rounding};
 use super::engine::record_contact;
 use super::model::{FixtureShape, Model};
 use super::motion::applied_force;
@@ -60,7 +60,12 @@ const PRESSURE_SAMPLES: u32 = 8;
 /// First time on a field segment at which nothing presses the body into the contact any more.
 fn lift_time(model: &Model, state: &State, body: u32, contact: &Contact) -> Option<f64> {
     let segment = &state.segments[body as usize];
-    let pressed = |time: f64| pressure_at(model, state, body, contact, time) > 0.0;
+    let pressed = |time: f64| {
+        let subject = subject(model, state, body, time);
+        let touch = contact.touch(model, subject.radius, subject.position, subject.velocity);
+        let free = applied_force(model, &subject) / subject.mass;
+        pressure(&touch, free) >= -pressure_rounding(&touch, free)
+    };
     let mut low = segment.start;
     for sample in 1..=PRESSURE_SAMPLES {
         let high = segment.start + segment.step * f64::from(sample) / f64::from(PRESSURE_SAMPLES);
@@ -81,12 +86,6 @@ fn bisect(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
         }
         if holds(middle) { low = middle } else { high = middle }
     }
-}
-
-fn pressure_at(model: &Model, state: &State, body: u32, contact: &Contact, time: f64) -> f64 {
-    let subject = subject(model, state, body, time);
-    let touch = contact.touch(model, subject.radius, subject.position, subject.velocity);
-    pressure(&touch, applied_force(model, &subject) / subject.mass)
 }
 
 /// How a body that has just hit a static one may go on in lasting contact.
@@ -116,8 +115,9 @@ pub(super) fn settle(model: &Model, state: &State, body: u32, fixture: u32, hit:
     let mut at_hit = subject(model, state, body, hit.time);
     at_hit.velocity = hit.velocity;
     let touch = contact.touch(model, mover.radius, hit.position, hit.velocity);
-    let pressing = pressure(&touch, applied_force(model, &at_hit) / mover.mass);
-    if pressing <= 0.0 {
+    let free = applied_force(model, &at_hit) / mover.mass;
+    let pressing = pressure(&touch, free);
+    if pressing <= pressure_rounding(&touch, free) {
         return None;
     }
     let speed = hit.restitution * hit.closing;
@@ -129,12 +129,14 @@ pub(super) fn settle(model: &Model, state: &State, body: u32, fixture: u32, hit:
         return None;
     }
     contact.settles_at = Some(hit.time + if has_limit { flights } else { 0.0 });
+    // What is left of the bounce is taken whole; the other surfaces must not be entered by that.
+    let level = hit.velocity - hit.velocity.dot(touch.towards) * touch.towards;
     let touches: Vec<DVec3> = state.contacts[body as usize]
         .iter()
-        .chain([&contact])
         .map(|contact| contact.touch(model, mover.radius, hit.position, hit.velocity).towards)
+        .chain([touch.towards])
         .collect();
-    Some(Settling { contact, velocity: into_cone(hit.velocity, &touches) })
+    Some(Settling { contact, velocity: into_cone(level, &touches) })
 }
 
 /// The rounding of a velocity: below this fraction of it a normal component is no motion.
@@ -188,7 +190,8 @@ pub(super) fn prune_contacts(model: &Model, state: &mut State, body: u32, time: 
     let mut kept = Vec::new();
     for (contact, towards) in old.into_iter().zip(touches) {
         let pressed = if alone {
-            pressure(&contact.touch(model, radius, x, v), free) > 0.0
+            let touch = contact.touch(model, radius, x, v);
+            pressure(&touch, free) >= -pressure_rounding(&touch, free) && free != DVec3::ZERO
         } else {
             constrained.dot(towards) >= -VELOCITY_ROUNDING * free.length() && free != DVec3::ZERO
         };

@@ -23,6 +23,7 @@ mod motion;
 mod neighbours;
 mod predict;
 mod queue;
+mod roots;
 mod segment;
 mod state;
 mod tiles;

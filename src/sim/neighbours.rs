@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::model::Model;
 use super::predict;
 use super::queue::Kind;
+use super::roots::first_root;
 use super::segment::Path;
 use super::state::{Scratch, State};
 use super::tiles::TileRange;
@@ -97,15 +98,7 @@ pub(super) fn first_beyond(
             return Some(time);
         }
         // |ẍ| ≤ A: the limit is not reached before distance + rate·δ − ½Aδ² = 0.
-        let bound = segment.acceleration_bound;
-        let root = (rate * rate + 2.0 * bound * distance).sqrt();
-        let step = if rate < 0.0 {
-            2.0 * distance / (root - rate)
-        } else if bound > 0.0 {
-            (rate + root) / bound
-        } else {
-            return None;
-        };
+        let step = first_root(distance, rate, -segment.acceleration_bound)?;
         if time + step > segment.end {
             return None;
         }
@@ -114,20 +107,6 @@ pub(super) fn first_beyond(
         }
         time += step;
     }
-}
-
-/// First τ ≥ 0 with distance + rate·τ + ½·bend·τ² ≤ 0 and falling.
-fn first_root(distance: f64, rate: f64, bend: f64) -> Option<f64> {
-    if distance <= 0.0 && rate < 0.0 {
-        return Some(0.0);
-    }
-    let distance = distance.max(0.0);
-    if bend < 0.0 {
-        let root = (rate * rate - 2.0 * bend * distance).sqrt();
-        return Some(if rate < 0.0 { 2.0 * distance / (root - rate) } else { (rate + root) / -bend });
-    }
-    let discriminant = rate * rate - 2.0 * bend * distance;
-    (rate < 0.0 && discriminant >= 0.0).then(|| 2.0 * distance / (discriminant.sqrt() - rate))
 }
 
 fn predict_core_passes(model: &Model, state: &mut State, body: u32, time: f64) {

@@ -20,6 +20,8 @@ pub(super) struct Segment {
     pub acceleration_bound: f64,
     /// Length of the integrator step whose [`Series`] continues the polynomial; 0 without one.
     pub step: f64,
+    /// Whether contact forces took part in it.
+    pub constrained: bool,
 }
 
 /// The part of a field segment beyond ½aτ². With s = τ/step:
@@ -31,7 +33,16 @@ pub(super) struct Series {
 
 impl Segment {
     pub fn ballistic(start: f64, x: DVec3, v: DVec3, a: DVec3) -> Self {
-        Self { start, end: f64::INFINITY, x, v, a, acceleration_bound: a.length(), step: 0.0 }
+        Self {
+            start,
+            end: f64::INFINITY,
+            x,
+            v,
+            a,
+            acceleration_bound: a.length(),
+            step: 0.0,
+            constrained: false,
+        }
     }
 }
 

@@ -23,7 +23,7 @@ pub(in crate::sim) fn applied_force(model: &Model, subject: &Subject<'_>) -> DVe
 }
 
 /// Acceleration under the applied forces and the body's lasting contacts, m/s².
-pub(in crate::sim) fn acceleration_of(model: &Model, contacts: &[Contact], subject: &Subject<'_>) -> DVec3 {
+fn acceleration_of(model: &Model, contacts: &[Contact], subject: &Subject<'_>) -> DVec3 {
     let free = applied_force(model, subject) / subject.mass;
     constrain(model, contacts, subject.radius, subject.position, subject.velocity, free)
 }
@@ -39,7 +39,7 @@ pub(in crate::sim) fn begin_segment(
     v: DVec3,
 ) -> Result<(), SegmentError> {
     book_segment(model, state, body, time);
-    let segment = if needs_integration(model, state, body) {
+    let mut segment = if needs_integration(model, state, body) {
         integrated(model, state, body, time, x, v)?
     } else {
         let subject = subject_at(model, body, time, x, v);
@@ -49,6 +49,7 @@ pub(in crate::sim) fn begin_segment(
         return Err(SegmentError::NotFinite);
     }
     let index = body as usize;
+    segment.constrained = !state.contacts[index].is_empty();
     state.segments[index] = segment;
     state.stamps[index] = state.stamps[index].wrapping_add(1);
     state.counters.segments += 1;

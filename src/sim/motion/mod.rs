@@ -4,5 +4,5 @@ mod law;
 mod quadrature;
 mod radau;
 
-pub(super) use law::{SegmentError, acceleration_of, applied_force, begin_segment};
+pub(super) use law::{SegmentError, applied_force, begin_segment};
 pub(super) use quadrature::integrate;

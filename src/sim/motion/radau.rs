@@ -114,6 +114,7 @@ pub(in crate::sim) fn radau_step(
             a: a0,
             acceleration_bound: a0.length() + series.bound(),
             step,
+            constrained: false,
         };
         return Ok((segment, series, (step * ratio.min(1.0 / SAFETY)).min(LONGEST_STEP)));
     }

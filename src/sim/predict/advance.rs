@@ -1,11 +1,12 @@
 //! First contact by conservative advancement (Mirtich 1996, §2.3).
 //!
-//! The distance d to a convex set is convex, so along a path with |ẍ| ≤ A
-//!     d(t+δ) ≥ d(t) + ḋ(t)δ − ½Aδ².
-//! Stepping to the first root of the right side never passes a contact, however thin the body or large
-//! the step, and converges like Newton's method from the side that does not penetrate.
+//! The distance d to a convex set lies above its tangent plane at any point. With n the direction away from
+//! the set, d(t+δ) ≥ d(t) + ḋ(t)δ + ½ n·ẍ δ² along a parabola, and ≥ d(t) + ḋ(t)δ − ½Aδ² where |ẍ| ≤ A.
+//! Stepping to the first root of the right side never passes a contact, however thin the body or long the
+//! step, and converges like Newton's method from the side that does not penetrate.
 
 use super::Gap;
+use crate::sim::roots::first_root;
 
 /// Steps before the search hands back the time it has reached, to be looked at again from there.
 const MAX_STEPS: u32 = 400;
@@ -15,8 +16,8 @@ const MAX_STEPS: u32 = 400;
 pub(super) struct Search {
     pub from: f64,
     pub until: f64,
-    /// Upper bound of the relative acceleration, m/s².
-    pub acceleration_bound: f64,
+    /// Upper bound of the relative acceleration, m/s²; `None` if it is constant, along parabolas.
+    pub acceleration_bound: Option<f64>,
     /// Depth to which touching surfaces may part or slide without counting as contact, m.
     pub slack: f64,
 }
@@ -29,15 +30,15 @@ pub(super) fn first_contact(search: Search, gap_at: impl Fn(f64) -> Gap) -> Opti
     let mut time = search.from;
     for _ in 0..MAX_STEPS {
         let gap = gap_at(time);
-        let closing = gap.rate < 0.0 || (gap.rate == 0.0 && gap.bend < 0.0);
+        let closing = gap.is_closing();
         if gap.distance <= 0.0 && closing {
             return Some(time);
         }
         // A parting pair may be a rounding apart or inside: without the slack it would never get away.
         let distance = if closing { gap.distance } else { gap.distance.max(0.0) + search.slack };
-        let step = shortest_time_to_close(distance, gap.rate, search.acceleration_bound)?;
-        let next = time + step;
-        if next > search.until {
+        let bend = search.acceleration_bound.map_or(gap.drive, |bound| -bound);
+        let next = time + first_root(distance, gap.rate, bend)?;
+        if !(next <= search.until && next.is_finite()) {
             return None;
         }
         if next <= time {
@@ -46,16 +47,4 @@ pub(super) fn first_contact(search: Search, gap_at: impl Fn(f64) -> Gap) -> Opti
         time = next;
     }
     Some(time)
-}
-
-/// First positive root of distance + rate·δ − ½·bound·δ², for distance ≥ 0; `None` if there is none.
-pub(super) fn shortest_time_to_close(distance: f64, rate: f64, bound: f64) -> Option<f64> {
-    let root = (rate * rate + 2.0 * bound * distance).sqrt();
-    if rate < 0.0 {
-        Some(2.0 * distance / (root - rate))
-    } else if bound > 0.0 {
-        Some((rate + root) / bound)
-    } else {
-        None
-    }
 }

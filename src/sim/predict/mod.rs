@@ -20,10 +20,26 @@ pub(super) struct Gap {
     pub rate: f64,
     /// Second derivative of the distance, m/s²: negative when driven together.
     pub bend: f64,
+    /// The part of it that the acceleration gives, without the curvature of the surfaces.
+    pub drive: f64,
     /// Unit vector from the first body to the second.
     pub normal: DVec3,
     /// Nearest point on the surface of the first body (a sphere), m.
     pub point: DVec3,
+}
+
+impl Gap {
+    /// Whether the surfaces come nearer: now, or at once because they are pressed.
+    pub fn is_closing(&self) -> bool {
+        self.rate < 0.0 || (self.rate == 0.0 && self.bend < 0.0)
+    }
+}
+
+/// Zero if `value` is no more than the rounding of something of this size. Without it a body that glides
+/// along a surface would seem to hit or leave it, now and then, by 1e-17.
+fn snap(value: f64, size: f64) -> f64 {
+    const ROUNDING: f64 = 16.0 * f64::EPSILON;
+    if value.abs() <= ROUNDING * size { 0.0 } else { value }
 }
 
 /// A sphere on its way.

@@ -3,9 +3,10 @@
 
 use glam::DVec3;
 
-use super::advance::{Search, first_contact as advance, shortest_time_to_close};
-use super::{Gap, Mover, touch_tolerance};
+use super::advance::{Search, first_contact as advance};
+use super::{Gap, Mover, snap, touch_tolerance};
 use crate::sim::model::Plate;
+use crate::sim::roots::first_root;
 
 pub(super) fn first_contact(mover: Mover<'_>, plate: &Plate, from: f64) -> Option<f64> {
     let seg = mover.path.segment;
@@ -28,18 +29,23 @@ pub(super) fn first_contact(mover: Mover<'_>, plate: &Plate, from: f64) -> Optio
             }
         }
     }
-    let search = Search { from, until: seg.end, acceleration_bound: seg.acceleration_bound, slack };
+    let acceleration_bound = mover.path.series.map(|_| seg.acceleration_bound);
+    let search = Search { from, until: seg.end, acceleration_bound, slack };
     advance(search, |time| gap(mover, plate, time))
 }
 
 pub(super) fn gap(mover: Mover<'_>, plate: &Plate, time: f64) -> Gap {
     let at = mover.path.position(time);
     let velocity = mover.path.velocity(time);
+    let acceleration = mover.path.acceleration(time);
     let near = closest_on_plate(plate, at);
+    let turn = near.turn_away(velocity);
+    let drive = -near.towards.dot(acceleration);
     Gap {
         distance: near.distance - mover.radius,
-        rate: -near.towards.dot(velocity),
-        bend: near.turn_away(velocity) - near.towards.dot(mover.path.acceleration(time)),
+        rate: snap(-near.towards.dot(velocity), velocity.length()),
+        bend: snap(turn + drive, acceleration.length() + turn),
+        drive,
         normal: near.towards,
         point: at + mover.radius * near.towards,
     }
@@ -114,19 +120,12 @@ fn reach_plane(mover: Mover<'_>, plate: &Plate, from: f64, slack: f64) -> Reach 
     let z = plate.to_local(mover.path.position(from)).z;
     let side = if z < 0.0 { -1.0 } else { 1.0 };
     let distance = side * z - mover.radius;
-    let rate = side * plate.normal.dot(mover.path.velocity(from));
+    let velocity = mover.path.velocity(from);
+    let rate = snap(side * plate.normal.dot(velocity), velocity.length());
     let acceleration = side * plate.normal.dot(mover.path.segment.a);
     if distance < -slack || (distance <= 0.0 && (rate < 0.0 || (rate == 0.0 && acceleration < 0.0))) {
         return Reach::Within;
     }
-    let distance = distance.max(0.0);
-    let tau = if acceleration < 0.0 {
-        shortest_time_to_close(distance, rate, -acceleration)
-    } else if rate < 0.0 {
-        let discriminant = rate * rate - 2.0 * acceleration * distance;
-        (discriminant >= 0.0).then(|| 2.0 * distance / (discriminant.sqrt() - rate))
-    } else {
-        None
-    };
+    let tau = first_root(distance, rate, acceleration);
     tau.map_or(Reach::Never, |tau| Reach::At(from + tau))
 }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::advance::{Search, first_contact as advance};
-use super::{Gap, Mover, touch_tolerance};
+use super::{Gap, Mover, snap, touch_tolerance};
 
 /// Relative motion of `b` as seen from `a`.
 struct Relative {
@@ -24,11 +24,7 @@ pub(super) fn first_contact(a: Mover<'_>, b: Mover<'_>, hold: f64, from: f64) ->
     if parabolas && relative.acceleration == DVec3::ZERO {
         return straight(&relative, a.radius + b.radius).map(|tau| from + tau).filter(|time| *time <= until);
     }
-    let acceleration_bound = if parabolas {
-        relative.acceleration.length()
-    } else {
-        seg_a.acceleration_bound + seg_b.acceleration_bound
-    };
+    let acceleration_bound = (!parabolas).then_some(seg_a.acceleration_bound + seg_b.acceleration_bound);
     let slack = touch_tolerance(seg_a.x, a.radius).max(touch_tolerance(seg_b.x, b.radius));
     advance(Search { from, until, acceleration_bound, slack }, |time| gap(a, b, time))
 }
@@ -46,7 +42,7 @@ pub(super) fn first_contact_fixed(mover: Mover<'_>, center: DVec3, radius: f64, 
     let search = Search {
         from,
         until: seg.end,
-        acceleration_bound: seg.acceleration_bound,
+        acceleration_bound: mover.path.series.map(|_| seg.acceleration_bound),
         slack: touch_tolerance(seg.x, mover.radius),
     };
     advance(search, |time| gap_fixed(mover, center, radius, time))
@@ -81,12 +77,14 @@ fn gap_of(relative: &Relative, at: DVec3, radius_a: f64, radius_b: f64) -> Gap {
     let normal = if distance > 0.0 { relative.position / distance } else { DVec3::X };
     let rate = normal.dot(relative.velocity);
     let across = relative.velocity - rate * normal;
+    // d̈ = n·p̈ + |ṗ⊥|²/|p|
+    let turn = if distance > 0.0 { across.length_squared() / distance } else { 0.0 };
+    let drive = normal.dot(relative.acceleration);
     Gap {
         distance: distance - (radius_a + radius_b),
-        rate,
-        // d̈ = n·p̈ + |ṗ⊥|²/|p|
-        bend: normal.dot(relative.acceleration)
-            + if distance > 0.0 { across.length_squared() / distance } else { 0.0 },
+        rate: snap(rate, relative.velocity.length()),
+        bend: snap(drive + turn, relative.acceleration.length() + turn),
+        drive,
         normal,
         point: at + radius_a * normal,
     }
