@@ -106,7 +106,12 @@ fn free_place(scene: &Scene, radius: f64) -> DVec3 {
         let angle = f64::from(k) * 2.399_963_229_728_653;
         let out = share.sqrt();
         middle
-            + reach * DVec3::new(out * angle.cos(), (f64::from(k % 9) - 4.0) / 4.0 * share, out * angle.sin())
+            + reach
+                * DVec3::new(
+                    out * libm::cos(angle),
+                    (f64::from(k % 9) - 4.0) / 4.0 * share,
+                    out * libm::sin(angle),
+                )
     });
     let rounded = spiral.map(|place| (place * 1e3).round() / 1e3);
     rounded
@@ -146,6 +151,5 @@ pub(super) fn offset_of_copy(scene: &Scene, keys: &[NodeKey]) -> DVec3 {
 
 /// 0.5 for 0.47, so that new things have sizes a person would have typed.
 fn round_to_one_digit(value: f64) -> f64 {
-    let digit = 10f64.powf(value.log10().floor());
-    if digit > 0.0 && digit.is_finite() { (value / digit).round() * digit } else { value }
+    format!("{value:.0e}").parse().unwrap_or(value)
 }

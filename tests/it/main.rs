@@ -9,6 +9,27 @@
     reason = "a test fails by stopping; expected values need not be the same bits everywhere; files round pi"
 )]
 
+// The command table: unique names and keys, reasons for what is disabled.
+mod editor_commands;
+
+// Opening, saving, samples and the guards against losing or overwriting work.
+mod editor_files;
+
+// What an edit means for a simulation that runs.
+mod editor_live;
+
+// Selection, inspector fields, problems, new objects, clipboard, typed numbers.
+mod editor_model;
+
+// Unsaved work outlives a crash.
+mod editor_recovery;
+
+// A session with a runner that writes down what it is told.
+mod editor_support;
+
+// Undo: one point per gesture, the document alone.
+mod editor_undo;
+
 // The rules of the source tree: layers, file sizes, function sizes.
 mod layering;
 // Pictures drawn in software without a window: silhouettes against their areas, depth order, caching.

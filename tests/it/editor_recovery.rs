@@ -1,0 +1,146 @@
+//! Unsaved work outlives a run that ended without saving, and the user's file is never touched.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use polyscene::editor::{Action, Answer, Command, Question, Request};
+use polyscene::scene::BodyChange;
+
+use super::editor_support::{Bench, BodyNumbers, SCENE};
+
+/// A run that edited a file and ended without saving.
+fn crashed() -> (tempfile::TempDir, PathBuf) {
+    let mut bench = Bench::with_storage(tempfile::tempdir().unwrap());
+    let path = bench.file("scene.xml", SCENE);
+    bench.act(Action::OpenPath(path.clone()));
+    bench.change(7, BodyChange::Mass(3.0));
+    bench.wait(Duration::from_secs(1));
+    let Bench { session, folder, .. } = bench;
+    drop(session);
+    (folder, path)
+}
+
+fn recovery_files(folder: &tempfile::TempDir) -> usize {
+    std::fs::read_dir(folder.path().join("data/recovery")).map_or(0, Iterator::count)
+}
+
+#[test]
+fn the_next_run_offers_the_work_and_restores_it_unsaved() {
+    let (folder, path) = crashed();
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), SCENE);
+    let mut bench = Bench::with_storage(folder);
+    let Some(question @ Question::Recover(_)) = bench.session.question().cloned() else { panic!("no offer") };
+    assert!(question.text().contains("scene.xml"), "{}", question.text());
+    bench.act(Action::Answer(Answer::Restore));
+    assert_eq!(bench.body(7).mass(), Some(3.0));
+    assert_eq!(bench.session.path(), Some(path.as_path()));
+    assert!(bench.session.is_dirty());
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), SCENE);
+    // it is safe again: a second crash loses nothing
+    let Bench { session, folder, .. } = bench;
+    drop(session);
+    let mut bench = Bench::with_storage(folder);
+    bench.act(Action::Answer(Answer::Restore));
+    bench.run(Command::Save);
+    assert!(std::fs::read_to_string(&path).unwrap().contains("<Weight F32=\"3\" />"));
+    assert_eq!(recovery_files(&bench.folder), 0);
+}
+
+#[test]
+fn restored_work_asks_before_it_replaces_a_file_that_changed_meanwhile() {
+    let (folder, path) = crashed();
+    std::fs::write(&path, "newer").unwrap();
+    let mut bench = Bench::with_storage(folder);
+    bench.act(Action::Answer(Answer::Restore));
+    bench.run(Command::Save);
+    assert!(matches!(bench.session.question(), Some(Question::ChangedOnDisk { .. })));
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), "newer");
+}
+
+#[test]
+fn discard_forgets_the_work_and_later_keeps_it() {
+    let (folder, _) = crashed();
+    let mut bench = Bench::with_storage(folder);
+    bench.act(Action::Answer(Answer::Later));
+    assert!(bench.session.question().is_none());
+    let Bench { session, folder, .. } = bench;
+    drop(session);
+    let mut bench = Bench::with_storage(folder);
+    bench.act(Action::Answer(Answer::Discard));
+    assert!(bench.session.question().is_none());
+    assert_eq!(recovery_files(&bench.folder), 0);
+}
+
+#[test]
+fn work_of_a_run_that_still_lives_is_not_offered() {
+    let mut first = Bench::with_storage(tempfile::tempdir().unwrap());
+    first.run(Command::AddPlane);
+    first.wait(Duration::from_secs(1));
+    assert!(recovery_files(&first.folder) > 0);
+    let runner = super::editor_support::FakeRunner::default();
+    let storage = super::editor_support::storage(first.folder.path());
+    let second = polyscene::editor::Session::with_storage(Box::new(runner), storage);
+    assert!(second.question().is_none());
+}
+
+#[test]
+fn nothing_is_kept_of_what_was_saved_discarded_or_undone() {
+    let mut bench = Bench::with_storage(tempfile::tempdir().unwrap());
+    let path = bench.file("scene.xml", SCENE);
+    bench.act(Action::OpenPath(path));
+    let ends: [fn(&mut Bench); 3] = [
+        |bench| drop(bench.run(Command::Undo)),
+        |bench| drop(bench.run(Command::Save)),
+        |bench| {
+            bench.run(Command::Quit);
+            bench.act(Action::Answer(Answer::Discard));
+            assert_eq!(bench.session.take_requests(), [Request::Quit]);
+        },
+    ];
+    for (index, end) in ends.into_iter().enumerate() {
+        bench.change(7, BodyChange::Mass(3.0 + index as f64));
+        bench.wait(Duration::from_secs(20));
+        assert_eq!(recovery_files(&bench.folder), 3, "end {index}");
+        end(&mut bench);
+        if index < 2 {
+            bench.wait(Duration::from_secs(20));
+        }
+        assert_eq!(recovery_files(&bench.folder), 0, "end {index}");
+    }
+}
+
+#[test]
+fn copies_are_made_at_most_every_ten_seconds_and_not_inside_a_drag() {
+    let mut bench = Bench::with_storage(tempfile::tempdir().unwrap());
+    let path = bench.file("scene.xml", SCENE);
+    bench.act(Action::OpenPath(path));
+    let copy = |bench: &Bench| {
+        let files = std::fs::read_dir(bench.folder.path().join("data/recovery")).ok()?;
+        let xml = files.flatten().find(|entry| entry.path().extension().is_some_and(|e| e == "xml"))?;
+        std::fs::read_to_string(xml.path()).ok()
+    };
+    bench.drag(7, BodyChange::Mass(2.0), 1);
+    bench.wait(Duration::from_secs(30));
+    assert_eq!(copy(&bench), None);
+    bench.act(Action::EndGesture);
+    bench.wait(Duration::from_secs(1));
+    assert!(copy(&bench).unwrap().contains("<Weight F32=\"2\" />"));
+    bench.change(7, BodyChange::Mass(4.0));
+    bench.wait(Duration::from_secs(5));
+    assert!(copy(&bench).unwrap().contains("<Weight F32=\"2\" />"));
+    bench.wait(Duration::from_secs(6));
+    assert!(copy(&bench).unwrap().contains("<Weight F32=\"4\" />"));
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_told_once_and_stops_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("data"), "a file where the folder should be").unwrap();
+    let mut bench = Bench::with_storage(folder);
+    bench.run(Command::AddPlane);
+    bench.wait(Duration::from_secs(20));
+    assert!(bench.notices().contains("can't be kept safe"));
+    bench.run(Command::AddPlane);
+    bench.wait(Duration::from_secs(20));
+    assert_eq!(bench.notices(), "");
+}
