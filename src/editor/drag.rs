@@ -66,7 +66,7 @@ fn place(kind: &ForceKind) -> Option<DVec3> {
 fn moved(mut kind: ForceKind, offset: DVec3) -> ForceKind {
     match &mut kind {
         ForceKind::GravityPoint { position, .. } | ForceKind::GravityPlane { position, .. } => {
-            *position += offset
+            *position += offset;
         }
         ForceKind::Drag { .. } => {}
     }

@@ -95,28 +95,28 @@ impl Session {
 
     pub(super) fn hide_selection(&mut self) -> Outcome {
         let keys = self.selection.keys().to_vec();
-        let outcome = self.mark(&keys, BodyChange::Hidden(true), ForceChange::Hidden(true));
+        let outcome = self.mark(&keys, &BodyChange::Hidden(true), &ForceChange::Hidden(true));
         self.selection.clear();
         outcome
     }
 
     pub(super) fn show_all(&mut self) -> Outcome {
         let keys = self.keys_where(|body| body.hidden, |force| force.hidden);
-        self.mark(&keys, BodyChange::Hidden(false), ForceChange::Hidden(false))
+        self.mark(&keys, &BodyChange::Hidden(false), &ForceChange::Hidden(false))
     }
 
     pub(super) fn lock_selection(&mut self) -> Outcome {
         let keys = self.selection.keys().to_vec();
-        self.mark(&keys, BodyChange::Locked(true), ForceChange::Locked(true))
+        self.mark(&keys, &BodyChange::Locked(true), &ForceChange::Locked(true))
     }
 
     pub(super) fn unlock_all(&mut self) -> Outcome {
         let keys = self.keys_where(|body| body.locked, |force| force.locked);
-        self.mark(&keys, BodyChange::Locked(false), ForceChange::Locked(false))
+        self.mark(&keys, &BodyChange::Locked(false), &ForceChange::Locked(false))
     }
 
     /// Gives the bodies the one change and the forces the other.
-    fn mark(&mut self, keys: &[NodeKey], of_body: BodyChange, of_force: ForceChange) -> Outcome {
+    fn mark(&mut self, keys: &[NodeKey], of_body: &BodyChange, of_force: &ForceChange) -> Outcome {
         let Some(scene) = self.scene() else { return no_scene() };
         let bodies = body_keys(scene);
         let edits = keys.iter().map(|key| {

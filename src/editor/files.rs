@@ -29,7 +29,7 @@ impl Session {
         match (self.question.take(), answer) {
             (Some(Question::UnsavedChanges { then, .. }), Answer::Save) => self.save(Some(then)),
             (Some(Question::UnsavedChanges { then, .. }), Answer::Discard) => self.carry_on(then),
-            (Some(Question::ChangedOnDisk { path, then }), Answer::Overwrite) => self.write(path, then),
+            (Some(Question::ChangedOnDisk { path, then }), Answer::Overwrite) => self.write(&path, then),
             (Some(Question::ChangedOnDisk { then, .. }), Answer::SaveAs) => self.save_as(then),
             (Some(Question::Recover(found)), Answer::Restore) => self.ask_then(Intent::Restore(found)),
             (Some(Question::Recover(found)), Answer::Discard) => {
@@ -137,7 +137,7 @@ impl Session {
             (Some(path), Some(stamp)) if has_changed(&path, stamp) => {
                 self.question = Some(Question::ChangedOnDisk { path, then });
             }
-            (Some(path), _) => self.write(path, then),
+            (Some(path), _) => self.write(&path, then),
             (None, _) => self.save_as(then),
         }
     }
@@ -157,18 +157,18 @@ impl Session {
         let with_extension = path.with_extension("xml");
         // no dialog has asked about the longer name, so it must not replace anything
         let path = if path.extension().is_none() && !with_extension.exists() { with_extension } else { path };
-        self.write(path, then);
+        self.write(&path, then);
     }
 
-    fn write(&mut self, path: PathBuf, then: Option<Intent>) {
-        if let Err(err) = self.document().save(&path) {
+    fn write(&mut self, path: &Path, then: Option<Intent>) {
+        if let Err(err) = self.document().save(path) {
             let text = format!("{} can't be saved: {err}", path.display());
             return self.notices.push(Notice::error(text));
         }
         self.history.mark_saved();
-        self.file = OpenFile::at(&path, DiskStamp::of(&path).ok());
+        self.file = OpenFile::at(path, DiskStamp::of(path).ok());
         self.forget_recovery();
-        self.remember(&path);
+        self.remember(path);
         self.notices.push(Notice::info(format!("Saved {}", self.file.title)));
         if let Some(intent) = then {
             self.carry_on(intent);

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::scene::{BodyChange, Edit, ForceChange, NodeKey, Scene};
+use crate::scene::{Body, BodyChange, Edit, ForceChange, NodeKey, Scene};
 
 /// Names an edit after what it does and to what, in the scene before it.
 pub(super) fn describe(edit: &Edit, scene: Option<&Scene>) -> String {
@@ -21,7 +21,7 @@ pub(super) fn describe(edit: &Edit, scene: Option<&Scene>) -> String {
 
 /// What to call a body or force: its name, or its unique label.
 pub(super) fn name_of(scene: &Scene, key: NodeKey) -> Option<&str> {
-    let body = scene.bodies.iter().find(|body| body.key == key).map(|body| body.display_name());
+    let body = scene.bodies.iter().find(|body| body.key == key).map(Body::display_name);
     body.or_else(|| {
         let force = scene.forces.iter().find(|force| force.key == key)?;
         Some(force.name.as_deref().unwrap_or(&force.label))

@@ -35,6 +35,18 @@ pub fn needs_reset(running: &Scene, wanted: &Scene) -> bool {
     !same
 }
 
+/// Whether one body or force runs otherwise than wanted, or is only in one of the scenes.
+pub(super) fn differs<'a>(running: &'a Scene, wanted: &'a Scene, key: NodeKey) -> bool {
+    let force = |scene: &'a Scene| scene.forces.iter().find(|force| force.key == key);
+    let body = |scene: &'a Scene| scene.bodies.iter().find(|body| body.key == key);
+    match (force(running), force(wanted), body(running), body(wanted)) {
+        (Some(a), Some(b), ..) => !same_force(a, b),
+        (.., Some(a), Some(b)) => !same_body(a, b),
+        (None, None, None, None) => false,
+        _ => true,
+    }
+}
+
 fn same_force(a: &Force, b: &Force) -> bool {
     a.key == b.key && a.id == b.id && a.kind == b.kind
 }

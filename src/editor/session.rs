@@ -7,11 +7,11 @@ use std::time::{Duration, Instant};
 use super::dialogue::{Intent, Question, Request};
 use super::disk::DiskStamp;
 use super::history::History;
-use super::live::{live_change, needs_reset};
+use super::live::{differs, live_change, needs_reset};
 use super::recovery::Recovery;
 use super::{Action, Gesture, Notice, Outcome, Playback, Selection, Settings, Storage};
 use crate::record::{EventRow, Frame, RunCommand, RunState, Runner};
-use crate::scene::{Document, NodeKey, NumberStyle, Scene};
+use crate::scene::{Diagnostic, Document, NodeKey, NumberStyle, Scene};
 use crate::sim::SimEdit;
 
 /// How long a drag must stand still until the simulation hears of it. Shorter would compile a scene for
@@ -37,8 +37,10 @@ pub struct Session {
     runner: Box<dyn Runner>,
     /// The scene that the runner runs; `None` when it has none.
     running: Option<Running>,
-    /// Set while a gesture's edits have not reached the runner, with the time they were first seen.
-    unsynced: Option<Option<(u64, Instant)>>,
+    /// Whether a gesture's edits have not reached the runner yet.
+    unsynced: bool,
+    /// The document state that was seen last while unsynced, and since when.
+    settling: Option<(u64, Instant)>,
     last_poll: Option<Instant>,
 }
 
@@ -91,7 +93,8 @@ impl Session {
             shown_event: None,
             runner,
             running: None,
-            unsynced: None,
+            unsynced: false,
+            settling: None,
             last_poll: None,
         };
         session.offer_recovery();
@@ -198,6 +201,14 @@ impl Session {
         })
     }
 
+    /// Whether the running simulation has other numbers of this body or force than the document, or none.
+    pub fn waits_for_reset(&self, key: NodeKey) -> bool {
+        match (&self.running, self.scene()) {
+            (Some(running), Some(scene)) => differs(&running.scene, scene, key),
+            _ => false,
+        }
+    }
+
     /// Carries out what a panel sent.
     pub fn perform(&mut self, action: Action) -> Outcome {
         let outcome = self.carry_out(action);
@@ -227,7 +238,8 @@ impl Session {
 
     /// Whether the scene can't be simulated. Says so only when the runner has tried.
     pub(super) fn has_no_simulation(&self) -> bool {
-        let failed = self.frame.state == RunState::Empty && self.frame.problems.iter().any(|p| p.is_error());
+        let failed =
+            self.frame.state == RunState::Empty && self.frame.problems.iter().any(Diagnostic::is_error);
         self.running.is_none() || failed
     }
 
@@ -245,15 +257,17 @@ impl Session {
     }
 
     fn sync_when_settled(&mut self, now: Instant) {
+        if !self.unsynced {
+            return;
+        }
         let state = self.history.state();
-        match self.unsynced {
-            Some(Some((seen, since))) if seen == state => {
+        match self.settling {
+            Some((seen, since)) if seen == state => {
                 if now.saturating_duration_since(since) >= SETTLE_TIME {
                     self.sync();
                 }
             }
-            Some(_) => self.unsynced = Some(Some((state, now))),
-            None => {}
+            _ => self.settling = Some((state, now)),
         }
     }
 
@@ -261,14 +275,15 @@ impl Session {
     pub(super) fn document_changed(&mut self) {
         self.selection.purge(self.history.document().scene());
         match self.history.open_gesture() {
-            Some(_) => self.unsynced = self.unsynced.or(Some(None)),
+            Some(_) => self.unsynced = true,
             None => self.sync(),
         }
     }
 
     /// Brings the runner in line with the document, as far as a running simulation can be changed.
     pub(super) fn sync(&mut self) {
-        self.unsynced = None;
+        self.unsynced = false;
+        self.settling = None;
         let document = self.history.document();
         let wanted = if document.has_errors() { None } else { document.scene().cloned() };
         match (&mut self.running, wanted) {
@@ -360,7 +375,7 @@ impl Session {
     /// Ends an open gesture and lets the runner know what it did.
     pub(super) fn settle(&mut self) {
         self.history.end_gesture();
-        if self.unsynced.is_some() {
+        if self.unsynced {
             self.sync();
         }
     }

@@ -111,6 +111,10 @@ fn poses_velocities_map_and_settings_wait_for_a_reset_and_undo_takes_the_badge_a
         assert_eq!(bench.edit(edit.clone()), Outcome::Done);
         assert_eq!(bench.sent(), Vec::<String>::new(), "{edit:?}");
         assert!(bench.session.needs_reset(), "{edit:?}");
+        let of_a_body = matches!(edit, Edit::Body { .. });
+        assert!(!bench.session.waits_for_reset(bench.key(30)));
+        let seven = bench.session.scene().unwrap().bodies[1].key;
+        assert_eq!(bench.session.waits_for_reset(seven), of_a_body, "{edit:?}");
         bench.run(Command::Undo);
         assert!(!bench.session.needs_reset(), "{edit:?}");
         bench.run(Command::Redo);
