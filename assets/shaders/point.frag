@@ -14,9 +14,10 @@ void main() {
     else if (shape == 3) inside = 0.8 * size - max(q.x, q.y);
     else inside = min(1.2 - abs(q.x - q.y) * 0.7071, size - max(q.x, q.y));
     float covered = clamp(inside + 0.5, 0.0, 1.0);
-    // A dark seam sets filled markers off from what is behind them.
-    bool filled = shape == 0 || shape == 2 || shape == 3;
-    float seam = filled ? clamp(inside + 1.8, 0.0, 1.0) : covered;
-    if (seam <= 0.0) discard;
-    outColor = vec4(mix(vec3(0.06), tint.rgb, covered), tint.a * max(covered, 0.6 * seam));
+    // A seam sets markers off from bodies of any colour.
+    float seam = 0.75 * clamp(inside + 1.7, 0.0, 1.0);
+    if (max(covered, seam) <= 0.0) discard;
+    float brightness = dot(tint.rgb, vec3(0.3, 0.59, 0.11));
+    vec3 seamColor = vec3(brightness > 0.5 ? 0.07 : 0.97);
+    outColor = vec4(mix(seamColor, tint.rgb, covered), tint.a * max(covered, seam));
 }

@@ -40,8 +40,8 @@ void main() {
     vec2 axis = len > 1e-3 ? (pxB - pxA) / len : vec2(1, 0);
     float head = min(toHead.w, 0.6 * len);
     float halfWidth = 0.5 * fromWidth.w;
-    float reach = max(halfWidth, 0.5 * head) + 1.0;
-    place = vec2(mix(-1.0, len + 1.0, corner.x), corner.y * reach);
+    float reach = max(halfWidth, 0.5 * head) + 2.0;
+    place = vec2(mix(-2.0, len + 2.0, corner.x), corner.y * reach);
     extent = vec3(len, halfWidth, head);
     tint = color;
     vec2 px = pxA + axis * place.x + vec2(-axis.y, axis.x) * place.y;
