@@ -6,7 +6,7 @@ use glam::DVec3;
 use polyscene::editor::{Action, Command, Outcome};
 use polyscene::record::{BodyFrame, RunState};
 use polyscene::scene::{BodyChange, Edit, ForceChange, ForceKind, SimParams};
-use polyscene::sim::ContactState;
+use polyscene::sim::{BodyState, ContactState, Simulation};
 
 use super::editor_support::{Bench, BodyNumbers};
 
@@ -82,6 +82,57 @@ fn forces_statics_bounce_and_mass_apply_to_a_running_simulation() {
         ]
     );
     assert!(!bench.session.needs_reset());
+}
+
+#[test]
+fn the_core_takes_every_live_edit_and_then_equals_the_document() {
+    let mut bench = Bench::open();
+    let mut simulation = Simulation::new(bench.session.scene().unwrap()).unwrap();
+    bench.step();
+    simulation.begin(1.0 / 60.0);
+    simulation.finish(&mut |_, _| {}).unwrap();
+    let weaker = weaker_gravity(&bench);
+    bench.edit(weaker);
+    bench.change(7, BodyChange::Mass(3.0));
+    bench.change(8, BodyChange::Bounce(0.75));
+    bench.change(30, BodyChange::Bounce(0.5));
+    bench.change(30, BodyChange::Rotation(DVec3::new(-1.5, 0.0, 0.0)));
+    bench.run(Command::AddGravityPoint);
+    bench.run(Command::AddDrag);
+    bench.run(Command::AddPlane);
+    bench.act(Action::Select(vec![bench.key(8)]));
+    bench.run(Command::Delete);
+    let edits = bench.sent_edits();
+    assert_eq!(edits.len(), 9);
+    for edit in edits {
+        simulation.apply(&edit).unwrap_or_else(|refused| panic!("{edit:?}: {refused}"));
+    }
+    assert!(!bench.session.needs_reset());
+    assert_eq!((simulation.dynamic_count(), simulation.static_count()), (1, 2));
+    // F = m g + attraction + drag, m and g as the document has them now
+    let seven = simulation.find(bench.key(7)).unwrap();
+    let state = simulation.state(seven).unwrap();
+    let scene = bench.session.scene().unwrap();
+    let expected: DVec3 = scene.forces.iter().map(|force| force_on(force.kind, state, 3.0, 0.5)).sum();
+    assert!(
+        simulation.total_force(seven).distance(expected) < 1e-12,
+        "{} {expected}",
+        simulation.total_force(seven)
+    );
+}
+
+fn force_on(kind: ForceKind, state: BodyState, mass: f64, radius: f64) -> DVec3 {
+    match kind {
+        ForceKind::GravityPlane { acceleration, .. } => mass * acceleration,
+        ForceKind::GravityPoint { position, intensity } => {
+            let r = position - state.position;
+            intensity * mass * r / r.length().powi(3)
+        }
+        ForceKind::Drag { density } => {
+            let section = std::f64::consts::PI * radius * radius;
+            -0.5 * 0.5 * density * section * state.velocity.length() * state.velocity
+        }
+    }
 }
 
 #[test]

@@ -159,6 +159,16 @@ impl Bench {
             .collect()
     }
 
+    /// The edits of the running simulation that were sent since the last call.
+    pub fn sent_edits(&self) -> Vec<polyscene::sim::SimEdit> {
+        let sent = std::mem::take(&mut self.runner.0.borrow_mut().sent);
+        let edits = sent.into_iter().filter_map(|command| match command {
+            RunCommand::Edit(edit) => Some(*edit),
+            _ => None,
+        });
+        edits.collect()
+    }
+
     /// The scene last loaded.
     pub fn loaded(&self) -> Option<polyscene::scene::Scene> {
         let desk = self.runner.0.borrow();
