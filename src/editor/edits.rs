@@ -31,15 +31,11 @@ impl Session {
             return Outcome::Done;
         }
         let label = label.unwrap_or_else(|| describe(edit, self.scene()));
-        let time_speed = self.scene().map(|scene| scene.time_speed);
         self.history.push(edited.document, label, gesture);
         if !edited.added.is_empty() {
             self.selection.set(&edited.added);
         }
         self.document_changed();
-        if self.scene().map(|scene| scene.time_speed) != time_speed {
-            self.play_on();
-        }
         Outcome::Done
     }
 

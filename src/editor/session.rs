@@ -306,8 +306,12 @@ impl Session {
                 let change = live_change(&running.scene, &scene);
                 running.edited |= !change.edits.is_empty();
                 running.needs_reset = needs_reset(&change.scene, &scene);
+                let speed_changed = running.scene.time_speed != scene.time_speed;
                 running.scene = change.scene;
                 self.send_edits(change.edits);
+                if speed_changed {
+                    self.play_on();
+                }
             }
         }
     }
@@ -343,6 +347,7 @@ impl Session {
     /// Goes to the start of the scene as it is edited now.
     pub(super) fn reset(&mut self) {
         self.settle();
+        self.stop_playing();
         let Some(running) = &self.running else { return };
         if running.edited || running.needs_reset {
             if let Some(scene) = self.scene().cloned() {
@@ -358,14 +363,25 @@ impl Session {
     /// Sends a command that moves the time forwards, after all edits made so far.
     pub(super) fn go_on(&mut self, command: RunCommand) {
         self.settle();
+        if !matches!(command, RunCommand::Play { .. }) {
+            self.stop_playing();
+        }
         self.runner.send(command);
         self.playback.went_on();
     }
 
     pub(super) fn go_back(&mut self, command: RunCommand) {
         self.settle();
+        self.stop_playing();
         self.runner.send(command);
         self.playback.went_back(&self.frame);
+    }
+
+    /// A step is taken from where the user saw the scene stop, not in the middle of playing.
+    fn stop_playing(&mut self) {
+        if self.frame.state == RunState::Playing {
+            self.pause();
+        }
     }
 
     pub(super) fn pause(&mut self) {

@@ -347,6 +347,22 @@ fn playing_takes_on_a_new_step_speed_and_time_speed() {
         bench.sent(),
         ["Play { dt: 0.02, speed: 1.0 }", "Play { dt: 0.02, speed: 2.0 }", "Play { dt: 0.02, speed: 0.5 }"]
     );
+    bench.run(Command::Undo);
+    assert_eq!(bench.sent(), ["Play { dt: 0.02, speed: 2.0 }"]);
     bench.run(Command::PlayPause);
     assert_eq!(bench.sent(), ["Pause"]);
+}
+
+#[test]
+fn a_step_or_a_reset_while_playing_stops_playing_first() {
+    for command in
+        [Command::StepForward, Command::NextEvent, Command::StepBack, Command::EventBack, Command::Reset]
+    {
+        let mut bench = Bench::open();
+        bench.step();
+        bench.show(|frame| frame.state = RunState::Playing);
+        bench.run(command);
+        let sent = bench.sent();
+        assert_eq!((sent.len(), sent[0].as_str()), (2, "Pause"), "{command:?}: {sent:?}");
+    }
 }
