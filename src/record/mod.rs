@@ -2,11 +2,18 @@
 
 mod command;
 mod frame;
+mod history;
+mod inline;
+mod publish;
+mod recorder;
+mod thread;
 
 use std::sync::Arc;
 
 pub use command::RunCommand;
 pub use frame::{BodyFrame, EventRow, Frame, RunState};
+pub use inline::InlineRunner;
+pub use thread::ThreadRunner;
 
 /// Something that runs a simulation on command. The application uses a thread, so that no scene can
 /// freeze the window; tests run inline, so that nothing sleeps.

@@ -1,0 +1,75 @@
+//! Makes the frame that the rest of the program sees.
+
+use std::sync::Arc;
+
+use super::recorder::{Recorder, Run};
+use super::{BodyFrame, Frame};
+use crate::sim::{Plan, Simulation};
+
+/// Occupied tiles that a frame lists; an overlay that shows more would be a solid block.
+const MAX_TILES: usize = 20_000;
+
+/// What a runner measured with its clock.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Pace {
+    pub(super) step_wall_s: f64,
+    pub(super) events_per_s: f64,
+    pub(super) real_speed: f64,
+}
+
+pub(super) fn frame_of(recorder: &Recorder, revision: u64, pace: Pace) -> Frame {
+    let base = Frame {
+        revision,
+        state: recorder.state(),
+        problems: recorder.problems.clone(),
+        step_wall_s: pace.step_wall_s,
+        events_per_s: pace.events_per_s,
+        real_speed: pace.real_speed,
+        ..Frame::default()
+    };
+    match &recorder.run {
+        None => base,
+        Some(run) => with_run(base, run),
+    }
+}
+
+fn with_run(base: Frame, run: &Run) -> Frame {
+    let simulation = &run.simulation;
+    let plan: &Plan = simulation.plan();
+    Frame {
+        time: simulation.time(),
+        dt_index: run.grid.index(),
+        open_step: run.grid.open,
+        bodies: bodies(simulation),
+        events: run.rows.list.iter().cloned().collect(),
+        events_truncated: run.rows.truncated,
+        event_count: run.last_event,
+        energy: Some(simulation.energy()),
+        momentum: Some(simulation.momentum()),
+        worst_overlap: run.worst_overlap,
+        counters: simulation.counters(),
+        plan: Arc::new(plan.clone()),
+        tiling: Arc::new(simulation.tiling(MAX_TILES)),
+        can_step_back: run.history.can_go_back(simulation),
+        fault: run.message.clone(),
+        ..base
+    }
+}
+
+fn bodies(simulation: &Simulation) -> Vec<BodyFrame> {
+    simulation
+        .dynamic_bodies()
+        .filter_map(|body| {
+            let state = simulation.state(body)?;
+            Some(BodyFrame {
+                key: simulation.key(body),
+                position: state.position,
+                velocity: state.velocity,
+                acceleration: state.acceleration,
+                force: simulation.total_force(body),
+                kinetic: 0.5 * simulation.mass(body)? * state.velocity.length_squared(),
+                contact: state.contact,
+            })
+        })
+        .collect()
+}

@@ -1,0 +1,181 @@
+//! The threaded runner: the simulation has a thread of its own, so that no scene can freeze the window.
+
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, TryRecvError, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use super::publish::{Pace, frame_of};
+use super::recorder::Recorder;
+use super::{Frame, RunCommand, RunState, Runner};
+
+/// Events between two looks at the clock and at the commands.
+const SLICE: u32 = 64;
+/// Time between two frames while it works or plays.
+const FRAME_TIME: Duration = Duration::from_millis(16);
+
+/// Runs on a thread of its own until it is dropped. A frame is replaced as a whole, never changed.
+#[derive(Debug)]
+pub struct ThreadRunner {
+    commands: Option<Sender<RunCommand>>,
+    frame: Arc<Mutex<Arc<Frame>>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl ThreadRunner {
+    /// `on_frame` is called from the thread after every new frame: the window asks for a repaint there.
+    pub fn new(on_frame: impl Fn() + Send + 'static) -> std::io::Result<Self> {
+        let (commands, received) = channel();
+        let frame = Arc::new(Mutex::new(Arc::new(Frame::default())));
+        let shared = frame.clone();
+        let thread = std::thread::Builder::new()
+            .name("simulation".into())
+            .spawn(move || Worker::new(received, shared, Box::new(on_frame)).run())?;
+        Ok(Self { commands: Some(commands), frame, thread: Some(thread) })
+    }
+}
+
+impl Runner for ThreadRunner {
+    fn send(&mut self, command: RunCommand) {
+        if let Some(commands) = &self.commands {
+            // The thread lives as long as the sender; a failed one has left its last frame to be seen.
+            let _ = commands.send(command);
+        }
+    }
+
+    fn frame(&self) -> Arc<Frame> {
+        self.frame.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    fn tick(&mut self, _wall_s: f64) {}
+}
+
+impl Drop for ThreadRunner {
+    fn drop(&mut self) {
+        self.commands = None;
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+    }
+}
+
+struct Worker {
+    commands: Receiver<RunCommand>,
+    shared: Arc<Mutex<Arc<Frame>>>,
+    on_frame: Box<dyn Fn() + Send>,
+    recorder: Recorder,
+    revision: u64,
+    clock: Clock,
+}
+
+/// What is measured with the wall clock, for the status bar.
+struct Clock {
+    last_elapse: Instant,
+    last_frame: Instant,
+    /// Time, events, Δt and model time when the last measurement began.
+    since: (Instant, u64, u64, f64),
+    working: Duration,
+    pace: Pace,
+}
+
+/// Time over which speeds are averaged.
+const PACE_TIME: Duration = Duration::from_millis(500);
+
+impl Worker {
+    fn new(
+        commands: Receiver<RunCommand>,
+        shared: Arc<Mutex<Arc<Frame>>>,
+        on_frame: Box<dyn Fn() + Send>,
+    ) -> Self {
+        let now = Instant::now();
+        let clock = Clock {
+            last_elapse: now,
+            last_frame: now,
+            since: (now, 0, 0, 0.0),
+            working: Duration::ZERO,
+            pace: Pace::default(),
+        };
+        Self { commands, shared, on_frame, recorder: Recorder::default(), revision: 0, clock }
+    }
+
+    fn run(mut self) {
+        let mut busy = false;
+        loop {
+            let received = match self.receive(busy) {
+                Received::Command(command) => {
+                    self.recorder.command(command);
+                    true
+                }
+                Received::Nothing => false,
+                Received::Closed => return,
+            };
+            let started = Instant::now();
+            self.recorder.elapse((started - self.clock.last_elapse).as_secs_f64());
+            self.clock.last_elapse = started;
+            let was_working = busy || self.recorder.state() == RunState::Playing;
+            busy = self.recorder.work(SLICE);
+            self.clock.working += started.elapsed();
+            let done = (was_working || received) && !busy && self.recorder.state() != RunState::Playing;
+            if done || ((busy || was_working) && self.clock.last_frame.elapsed() >= FRAME_TIME) {
+                self.publish();
+            }
+        }
+    }
+
+    /// Waits for a command when there is nothing to do, and only then.
+    fn receive(&self, busy: bool) -> Received {
+        if busy {
+            return match self.commands.try_recv() {
+                Ok(command) => Received::Command(command),
+                Err(TryRecvError::Empty) => Received::Nothing,
+                Err(TryRecvError::Disconnected) => Received::Closed,
+            };
+        }
+        if self.recorder.state() == RunState::Playing {
+            return match self.commands.recv_timeout(Duration::from_millis(2)) {
+                Ok(command) => Received::Command(command),
+                Err(RecvTimeoutError::Timeout) => Received::Nothing,
+                Err(RecvTimeoutError::Disconnected) => Received::Closed,
+            };
+        }
+        self.commands.recv().map_or(Received::Closed, Received::Command)
+    }
+
+    fn publish(&mut self) {
+        self.measure();
+        self.revision += 1;
+        let frame = Arc::new(frame_of(&self.recorder, self.revision, self.clock.pace));
+        *self.shared.lock().unwrap_or_else(PoisonError::into_inner) = frame;
+        self.clock.last_frame = Instant::now();
+        (self.on_frame)();
+    }
+
+    fn measure(&mut self) {
+        let Some(run) = &self.recorder.run else { return };
+        let now = Instant::now();
+        let (start, events, steps, time) = self.clock.since;
+        let playing = self.recorder.state() == RunState::Playing;
+        let wall = (now - start).as_secs_f64();
+        if playing && now - start < PACE_TIME {
+            return;
+        }
+        let (new_events, new_steps) = (run.last_event, run.grid.index());
+        let worked = self.clock.working.as_secs_f64();
+        let stepped = new_steps.saturating_sub(steps);
+        if stepped > 0 {
+            self.clock.pace.step_wall_s = worked / stepped as f64;
+        }
+        let gained = new_events.saturating_sub(events) as f64;
+        self.clock.pace.events_per_s = if worked > 0.0 { gained / worked } else { 0.0 };
+        self.clock.pace.real_speed =
+            if playing { (run.simulation.time() - time).max(0.0) / wall } else { 0.0 };
+        self.clock.since = (now, new_events, new_steps, run.simulation.time());
+        self.clock.working = Duration::ZERO;
+    }
+}
+
+enum Received {
+    Command(RunCommand),
+    Nothing,
+    Closed,
+}
