@@ -27,6 +27,8 @@ struct Keyframe {
     snapshot: Snapshot,
     grid: StepGrid,
     segments: u64,
+    /// Recorded edits that it contains.
+    edits: usize,
 }
 
 #[derive(Debug)]
@@ -50,7 +52,10 @@ pub(super) struct History {
     /// Time of each event; the first is number `first_event`.
     event_times: Vec<f64>,
     first_event: u64,
+    /// In the order of their stamps.
     edits: Vec<RecordedEdit>,
+    /// How many of them the simulation has behind it now.
+    applied: usize,
     /// Set while the past is simulated again: nothing is recorded twice.
     replaying: bool,
 }
@@ -59,11 +64,12 @@ impl History {
     pub(super) fn new(simulation: &Simulation, grid: StepGrid) -> Self {
         let at = Point { event: 0, time: simulation.time() };
         Self {
-            keyframes: vec![Keyframe { at, snapshot: simulation.snapshot(), grid, segments: 0 }],
+            keyframes: vec![Keyframe { at, snapshot: simulation.snapshot(), grid, segments: 0, edits: 0 }],
             ticks: vec![Tick { at, grid }],
             event_times: Vec::new(),
             first_event: 1,
             edits: Vec::new(),
+            applied: 0,
             replaying: false,
         }
     }
@@ -103,19 +109,26 @@ impl History {
         let at = Point { event, time: simulation.time() };
         self.forget_after(at);
         self.edits.push(RecordedEdit { at, edit: edit.clone() });
+        self.applied = self.edits.len();
         self.keep(simulation, grid, at);
     }
 
     fn forget_after(&mut self, at: Point) {
         self.keyframes.retain(|key| key.at.time <= at.time && key.at.event <= at.event);
         self.ticks.retain(|tick| tick.at.time <= at.time && tick.at.event <= at.event);
-        self.edits.retain(|edit| edit.at.time <= at.time && edit.at.event <= at.event);
+        self.edits.truncate(self.applied);
         self.event_times.truncate((at.event + 1).saturating_sub(self.first_event) as usize);
     }
 
     fn keep(&mut self, simulation: &Simulation, grid: StepGrid, at: Point) {
         let segments = simulation.counters().segments;
-        self.keyframes.push(Keyframe { at, snapshot: simulation.snapshot(), grid, segments });
+        self.keyframes.push(Keyframe {
+            at,
+            snapshot: simulation.snapshot(),
+            grid,
+            segments,
+            edits: self.applied,
+        });
         let size = BODY_SIZE * (simulation.dynamic_count() + 8);
         if self.keyframes.len() > 2 && self.keyframes.len() * size > SNAPSHOT_BUDGET {
             // The start and the newest stay.
@@ -173,6 +186,7 @@ impl Run {
         self.simulation.restore(&key.snapshot);
         self.grid = key.grid;
         self.last_event = key.at.event;
+        self.history.applied = key.edits;
         self.history.replaying = true;
         self.run_to(from.at);
         self.rows = Rows::default();
@@ -184,38 +198,39 @@ impl Run {
 
     /// Simulates again up to a point, with the edits on the way applied at their stamps.
     fn run_to(&mut self, target: Point) {
-        while let Some(index) = self.next_edit(target) {
-            let at = self.history.edits[index].at;
-            self.run_quietly(at);
-            let edit = self.history.edits[index].edit.clone();
-            if self.simulation.apply(&edit).is_err() {
+        loop {
+            self.apply_due_edits(target.time);
+            if self.last_event >= target.event {
                 break;
             }
-            // An edit is an event itself: it is the next one handed out.
-            self.run_quietly(Point { event: at.event + 1, time: at.time });
-        }
-        self.run_quietly(target);
-    }
-
-    /// The first edit between now and a point.
-    fn next_edit(&self, target: Point) -> Option<usize> {
-        self.history.edits.iter().position(|edit| {
-            edit.at.event >= self.last_event
-                && edit.at.event < target.event
-                && edit.at.time >= self.simulation.time()
-        })
-    }
-
-    fn run_quietly(&mut self, target: Point) {
-        self.simulation.begin(target.time);
-        while self.last_event < target.event {
+            self.simulation.begin(target.time);
             match self.simulation.next_event() {
                 Ok(Some(event)) => self.note(&event),
                 Ok(None) | Err(_) => break,
             }
         }
         if self.simulation.time() < target.time {
-            let _unreachable_fault = self.simulation.finish(&mut |_, _| {});
+            self.simulation.begin(target.time);
+            // No event is left before the point, so there is nothing that could go wrong.
+            let _ = self.simulation.finish(&mut |_, _| {});
+        }
+    }
+
+    /// Applies the recorded edits whose turn it is, up to a time, each exactly where it was made.
+    pub(super) fn apply_due_edits(&mut self, until: f64) {
+        while let Some(next) = self.history.edits.get(self.history.applied) {
+            if next.at.event != self.last_event || next.at.time > until {
+                return;
+            }
+            let edit = next.edit.clone();
+            if next.at.time > self.simulation.time() {
+                self.simulation.begin(next.at.time);
+                // Between its event and its stamp there is none.
+                let _ = self.simulation.finish(&mut |_, _| {});
+            }
+            self.history.applied += 1;
+            // It was accepted in this very state before.
+            let _ = self.simulation.apply(&edit);
         }
     }
 }

@@ -302,6 +302,7 @@ impl Run {
             return Slice::Pause;
         }
         *budget -= 1;
+        self.apply_due_edits(end);
         self.simulation.begin(end);
         match self.reach_next_event() {
             Ok(true) => Slice::Event,

@@ -50,3 +50,6 @@ mod view_pick;
 mod view_scenes;
 // Which walls of a closed box are glass, from everywhere.
 mod view_see_through;
+
+// Runners: the Δt grid, going back, edits with their stamps, playing.
+mod record_runner;
