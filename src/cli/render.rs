@@ -32,11 +32,11 @@ pub struct RenderArgs {
     out: PathBuf,
 
     /// Model time to show, in seconds
-    #[arg(long, value_name = "S", value_parser = number::seconds)]
-    at: Option<f64>,
+    #[arg(long, value_name = "S", value_parser = moment, allow_negative_numbers = true, default_value = "0")]
+    at: f64,
 
     /// Δt before `--at` whose contacts are shown, in seconds; fractions such as 1/60 are fine
-    #[arg(long, value_name = "S", value_parser = number::seconds, default_value = "1/60")]
+    #[arg(long, value_name = "S", value_parser = number::seconds, allow_negative_numbers = true, default_value = "1/60")]
     dt: f64,
 
     /// Size of the picture in pixels
@@ -90,7 +90,7 @@ pub(super) fn render(args: &RenderArgs) -> Result<(), CliError> {
     let (Some(scene), Some(mut simulation)) = (examined.document.scene(), examined.simulation) else {
         return Err(CliError::Scene(format!("{name} can't be drawn: it has errors")));
     };
-    let frame = frame_at(&mut simulation, args.at.unwrap_or(0.0), args.dt).map_err(CliError::Fault)?;
+    let frame = frame_at(&mut simulation, args.at, args.dt).map_err(CliError::Fault)?;
 
     let mut offscreen = Offscreen::new().map_err(|error| unusable(&error))?;
     let tiles = tiles(args, scene, &frame);
@@ -211,6 +211,11 @@ fn row(simulation: &Simulation, event: &Event) -> EventRow {
         b_label: event.b.map_or_else(String::new, |b| simulation.label(b).to_owned()),
         dt_index: 1,
     }
+}
+
+/// Seconds; the start, which is no length of time, counts.
+fn moment(text: &str) -> Result<f64, String> {
+    if text.parse() == Ok(0.0) { Ok(0.0) } else { number::seconds(text) }
 }
 
 fn size(text: &str) -> Result<[u32; 2], String> {

@@ -12,6 +12,9 @@ const SMALLEST_RADIUS: f64 = 1.5;
 /// More plates than this are drawn without edges.
 const MOST_EDGED_PLATES: usize = 4000;
 
+/// Larger bodies are drawn with this size, so that it fits an f32, m.
+const LARGEST: f64 = 1e30;
+
 pub(super) fn add(stage: &Stage<'_>, list: &mut DrawList) {
     let plates = stage.bodies.iter().filter(|posed| matches!(posed.body.shape, Shape::Plane { .. })).count();
     let mut glass = Vec::new();
@@ -21,8 +24,9 @@ pub(super) fn add(stage: &Stage<'_>, list: &mut DrawList) {
             Shape::Plane { half_x, half_y } => {
                 let edged = plates <= MOST_EDGED_PLATES;
                 let rotation = rotation_matrix(posed.body.rotation);
+                let half = [half_x.min(LARGEST), half_y.min(LARGEST)];
                 let along = [rotation.x_axis, rotation.y_axis];
-                let face = Face { center: posed.position, along, half: [half_x, half_y], edged };
+                let face = Face { center: posed.position, along, half, edged };
                 add_plate(stage, list, &mut glass, posed, &face);
             }
             Shape::Unbuilt { .. } => {
@@ -51,7 +55,7 @@ fn add_sphere(stage: &Stage<'_>, list: &mut DrawList, posed: &Posed<'_>, radius:
     let (outline, outline_width) = ring(stage, posed);
     list.spheres.push(Sphere {
         center: list.local(posed.position),
-        radius: radius.max(smallest) as f32,
+        radius: radius.max(smallest).min(LARGEST) as f32,
         color: posed.color,
         outline,
         outline_width,

@@ -64,6 +64,14 @@ const ORTHO_DEPTH_OVER_HEIGHT: f64 = 1000.0;
 /// Smallest and largest [`Camera::height`], m.
 const HEIGHT_RANGE: (f64, f64) = (1e-6, 1e9);
 
+/// Coordinates beyond this are not drawn: their differences must fit an f32.
+const FARTHEST: f64 = 1e30;
+
+/// Whether something at `place` can be drawn at all.
+pub(super) fn is_drawable(place: DVec3) -> bool {
+    place.abs().cmple(DVec3::splat(FARTHEST)).all()
+}
+
 impl Default for Camera {
     /// Looks at a 10 m map from above its front right corner.
     fn default() -> Self {
@@ -164,9 +172,18 @@ impl Camera {
         self.target + self.backward() * self.distance()
     }
 
-    /// Whether the camera's numbers can be drawn with.
-    pub fn is_usable(&self) -> bool {
-        self.target.is_finite() && (self.yaw + self.pitch).is_finite() && self.height > 0.0
+    /// This camera, or the nearest one whose numbers can be drawn with.
+    pub fn usable(self) -> Self {
+        let finite = |value: f64| if value.is_finite() { value } else { 0.0 };
+        let target = self.target.to_array().map(|value| finite(value).clamp(-FARTHEST, FARTHEST));
+        let height = if self.height.is_nan() { 1.0 } else { self.height };
+        Self {
+            target: DVec3::from_array(target),
+            yaw: finite(self.yaw),
+            pitch: finite(self.pitch).clamp(-std::f64::consts::FRAC_PI_2, std::f64::consts::FRAC_PI_2),
+            height: height.clamp(HEIGHT_RANGE.0, HEIGHT_RANGE.1),
+            ..self
+        }
     }
 
     /// Turns about the target; radians to the right and up that the *scene* seems to turn.
@@ -212,7 +229,8 @@ impl Camera {
             height = height.max((2.0 * from_center.dot(self.up()).abs()) + add);
         }
         let fitting = margin * height.max(width / aspect.max(1e-6));
-        self.height = if fitting > 0.0 { fitting } else { 1.0 }.clamp(HEIGHT_RANGE.0, HEIGHT_RANGE.1);
+        self.height = if fitting > 0.0 { fitting } else { 1.0 };
+        *self = self.usable();
     }
 
     /// The half-line under a point of the view: `ndc` from (−1, −1) at the bottom left to (1, 1),
@@ -274,7 +292,8 @@ impl Camera {
                 (false, false) => {}
             }
         }
-        (start <= end).then(|| (from.lerp(to, start), from.lerp(to, end)))
+        let (start, end) = (start <= end).then(|| (from.lerp(to, start), from.lerp(to, end)))?;
+        (is_drawable(start) && is_drawable(end)).then_some((start, end))
     }
 
     /// Metres per point (or pixel) at the target, in a view of that height.

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::camera::is_drawable;
 use super::{Arrow, DrawList, Point, PointShape, stage::Stage};
 use crate::scene::{Force, ForceKind, Scene};
 
@@ -23,7 +24,7 @@ pub(super) fn visible(scene: &Scene) -> impl Iterator<Item = (&Force, DVec3)> {
         .iter()
         .filter(|force| !force.hidden)
         .filter_map(|force| Some((force, place(&force.kind)?)))
-        .filter(|(_, place)| place.is_finite())
+        .filter(|(_, place)| is_drawable(*place))
 }
 
 pub(super) fn add(stage: &Stage<'_>, list: &mut DrawList) {

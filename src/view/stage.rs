@@ -3,6 +3,7 @@
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use super::camera::is_drawable;
 use super::{
     Bounds, Camera, Color, DrawList, Line, Palette, ViewInput, bounds, color,
     see_through::{Walls, is_between},
@@ -66,7 +67,7 @@ impl<'a> Stage<'a> {
             nth_dynamic += usize::from(body.is_dynamic());
             let now = now.get(&body.key).copied();
             let position = now.map_or(body.position, |now| now.position);
-            if body.hidden || !position.is_finite() {
+            if body.hidden || !is_drawable(position) {
                 continue;
             }
             let selected = selection.contains(&body.key);
@@ -81,7 +82,7 @@ impl<'a> Stage<'a> {
                 posed.color = palette.wall;
             }
         }
-        Self { input, camera: input.camera, palette, bodies, map }
+        Self { input, camera: input.camera.usable(), palette, bodies, map }
     }
 
     /// Metres per point at `place`.

@@ -34,6 +34,8 @@ mod editor_undo;
 mod layering;
 // Pictures drawn in software without a window: silhouettes against their areas, depth order, caching.
 mod render_pictures;
+// The verb `render` through the real program: pictures of every scene, and ways in which it ends badly.
+mod render_verb;
 // Edits: the bytes each changes, what it refuses, keys.
 mod scene_edit;
 // The reader: values, defaults, labels, places.

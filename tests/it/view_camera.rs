@@ -113,7 +113,7 @@ fn framing_shows_all_and_wastes_little() {
 fn framing_a_point_gives_a_usable_camera() {
     let mut camera = Camera::default();
     camera.frame(Bounds::of_point(DVec3::ONE), ASPECT);
-    assert!(camera.is_usable());
+    assert_eq!(camera, camera.usable());
     assert_eq!(camera.target, DVec3::ONE);
 }
 
@@ -139,7 +139,7 @@ fn zooming_keeps_what_is_under_the_cursor() {
     for _ in 0..2000 {
         camera.zoom_to_cursor(DVec2::ONE, ASPECT, 2.0);
     }
-    assert!(camera.is_usable());
+    assert_eq!(camera, camera.usable());
 }
 
 #[test]

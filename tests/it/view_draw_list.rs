@@ -211,3 +211,41 @@ fn a_list_is_built_anew_only_when_something_changed() {
         last = list;
     }
 }
+
+#[test]
+fn no_numbers_are_too_wild_to_draw() {
+    let wild = [0.0, 1e-320, 1e-30, 1.0, 1e20, 1e39, 1e160, f64::MAX, -f64::MAX];
+    let frame = frame();
+    for (i, a) in wild.into_iter().enumerate() {
+        for (j, b) in wild.into_iter().enumerate() {
+            let mut scene = furnished_box();
+            let c = wild[(i + j) % wild.len()];
+            scene.map.size = DVec3::splat(a.abs().max(1e-300));
+            scene.bodies[0].position = dvec3(a, b, c);
+            scene.bodies[0].shape = Shape::Plane { half_x: b.abs(), half_y: c.abs() };
+            scene.bodies[10].shape = Shape::Sphere { radius: a.abs() };
+            scene.bodies[11].position = dvec3(c, a, b);
+            let mut camera = Camera { target: dvec3(b, c, a), height: c.abs(), ..Camera::default() };
+            for step in 0..3 {
+                let mut input = ViewInput::new(&scene, camera, viewport());
+                input.overlays = OverlaySet::from_ids(OVERLAYS.iter().map(|overlay| overlay.id));
+                input.frame = (step == 1).then_some(&frame);
+                let list = build_draw_list(&input);
+                let strays = list
+                    .spheres
+                    .iter()
+                    .filter(|s| !(s.center.is_finite() && s.radius.is_finite()))
+                    .count()
+                    + list.plates.iter().filter(|p| !(p.corner + p.edge_x + p.edge_y).is_finite()).count()
+                    + list.lines.iter().filter(|l| !(l.from + l.to).is_finite()).count()
+                    + list.arrows.iter().filter(|a| !(a.from + a.to).is_finite()).count()
+                    + list.points.iter().filter(|p| !p.position.is_finite()).count()
+                    + list.labels.iter().filter(|l| !l.position.is_finite()).count();
+                assert_eq!(strays, 0, "{a} {b} {c}");
+                polyscene::view::pick(&input, glam::DVec2::splat(0.1));
+                camera.frame(scene_bounds(&input, None), 1.3);
+                assert_eq!(camera, camera.usable());
+            }
+        }
+    }
+}

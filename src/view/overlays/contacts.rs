@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::sim::{BodyRef, Event, EventKind};
+use crate::view::camera::is_drawable;
 use crate::view::stage::Stage;
 use crate::view::{Arrow, DrawList, Point, PointShape};
 
@@ -25,7 +26,7 @@ pub(in crate::view) fn add(stage: &Stage<'_>, list: &mut DrawList) {
 }
 
 fn is_contact(event: &Event) -> bool {
-    matches!(event.kind, EventKind::Impact | EventKind::Collapse) && event.point.is_finite()
+    matches!(event.kind, EventKind::Impact | EventKind::Collapse) && is_drawable(event.point)
 }
 
 fn add_contact(stage: &Stage<'_>, list: &mut DrawList, event: &Event, largest: f64) {

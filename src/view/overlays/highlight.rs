@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::scene::{NodeKey, Shape};
+use crate::view::camera::is_drawable;
 use crate::view::format::number;
 use crate::view::overlays::contacts::pushed_towards;
 use crate::view::stage::Stage;
@@ -14,7 +15,7 @@ const ARROW_POINTS: f64 = 64.0;
 pub(in crate::view) fn add(stage: &Stage<'_>, list: &mut DrawList) {
     let Some(row) = stage.input.highlighted else { return };
     let event = &row.event;
-    if !event.point.is_finite() {
+    if !is_drawable(event.point) {
         return;
     }
     let (position, color) = (list.local(event.point), stage.palette.highlight);
