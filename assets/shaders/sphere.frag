@@ -34,10 +34,10 @@ void main() {
     float key = max(dot(normal, normalize(KEY_LIGHT)), 0.0);
     float sky = 0.5 + 0.5 * dot(normal, skyward);
     vec3 body = bodyTint.rgb * (0.30 + 0.24 * sky + 0.52 * key);
-    if (ringSizeHatch.y > 0.5) {
+    if (ringSizeHatch.y > 0.0) {
         // Fixed: matt and hatched, the lines stay with the body.
         vec2 place = (hit - eyeSphere.xyz).xy / pixelSize;
-        float stripe = abs(fract((place.x + place.y) / 9.0) - 0.5);
+        float stripe = abs(fract((place.x + place.y) / ringSizeHatch.y) - 0.5);
         body *= mix(0.78, 1.0, smoothstep(0.10, 0.19, stripe));
     } else {
         vec3 halfway = normalize(normalize(KEY_LIGHT) - ray);

@@ -6,13 +6,13 @@ uniform vec2 viewportPx;
 in vec4 centerRadius;
 in vec4 color;
 in vec4 ringColor;
-in vec2 ringHatch; // ring width in pixels, hatched 0/1
+in vec2 ringHatch; // ring width and distance of hatching lines in pixels, 0 = none
 
 out vec3 eyePlace;
 flat out vec4 eyeSphere;
 flat out vec4 bodyTint;
 flat out vec4 ringTint;
-flat out vec2 ringSizeHatch; // ring width in metres at the centre, hatched 0/1
+flat out vec2 ringSizeHatch; // ring width in metres at the centre, distance of hatching lines in pixels
 flat out float pixelSize;    // metres per pixel at the centre
 
 void main() {

@@ -8,10 +8,10 @@ use clap::{Args, ValueEnum};
 use image::{ImageFormat, RgbaImage};
 
 use super::{CliError, input, number};
-use crate::record::{BodyFrame, EventRow, Frame};
+use crate::record::{Frame, InlineRunner, RunCommand, RunState, Runner as _};
 use crate::render::{Offscreen, RenderError, Tile, render_picture};
 use crate::scene::{Scene, write_atomically};
-use crate::sim::{BodyRef, Event, Fault, Simulation};
+use crate::sim::Fault;
 use crate::view::{
     Align, Camera, DrawList, Label, OVERLAYS, OverlaySet, Theme, VIEWS, ViewInput, ViewPreset, Viewport,
     build_draw_list, scene_bounds,
@@ -78,19 +78,16 @@ enum Colors {
 /// Pixels between the views of a quad picture.
 const GAP: u32 = 2;
 
-/// Most occupied tiles to look up for the overlay.
-const TILE_LIMIT: usize = 4000;
-
 pub(super) fn render(args: &RenderArgs) -> Result<(), CliError> {
     let name = input::display_name(&args.scene);
     let examined = input::open(&args.scene)?;
     for line in examined.lines(&name) {
         super::say(line);
     }
-    let (Some(scene), Some(mut simulation)) = (examined.document.scene(), examined.simulation) else {
+    let (Some(scene), Some(_)) = (examined.document.scene(), examined.simulation) else {
         return Err(CliError::Scene(format!("{name} can't be drawn: it has errors")));
     };
-    let frame = frame_at(&mut simulation, args.at, args.dt).map_err(CliError::Fault)?;
+    let frame = frame_at(scene, args.at, args.dt).map_err(CliError::Fault)?;
 
     let mut offscreen = Offscreen::new().map_err(|error| unusable(&error))?;
     let tiles = tiles(args, scene, &frame);
@@ -171,45 +168,21 @@ fn list(args: &RenderArgs, preset: &ViewPreset, scene: &Scene, frame: &Frame, si
 }
 
 /// The picture of the simulation at a time, with the events of the Δt before.
-fn frame_at(simulation: &mut Simulation, at: f64, dt: f64) -> Result<Frame, Fault> {
-    let mut events = Vec::new();
-    if at > 0.0 {
-        simulation.begin((at - dt).max(0.0));
-        simulation.finish(&mut |_, _| {})?;
-        simulation.begin(at);
-        simulation.finish(&mut |simulation, event| events.push(Arc::new(row(simulation, event))))?;
+fn frame_at(scene: &Scene, at: f64, dt: f64) -> Result<Arc<Frame>, Fault> {
+    let mut runner = InlineRunner::new();
+    runner.send(RunCommand::Load(Box::new(scene.clone())));
+    let last = dt.min(at);
+    for dt in [at - last, last].into_iter().filter(|dt| *dt > 0.0) {
+        runner.send(RunCommand::Step { dt, count: 1 });
     }
-    Ok(Frame {
-        time: simulation.time(),
-        bodies: simulation.dynamic_bodies().filter_map(|body| body_frame(simulation, body)).collect(),
-        events,
-        tiling: Arc::new(simulation.tiling(TILE_LIMIT)),
-        ..Frame::default()
-    })
-}
-
-fn body_frame(simulation: &Simulation, body: BodyRef) -> Option<BodyFrame> {
-    let state = simulation.state(body)?;
-    Some(BodyFrame {
-        key: simulation.key(body),
-        position: state.position,
-        velocity: state.velocity,
-        acceleration: state.acceleration,
-        force: simulation.total_force(body),
-        // No overlay shows it.
-        kinetic: 0.0,
-        contact: state.contact,
-    })
-}
-
-fn row(simulation: &Simulation, event: &Event) -> EventRow {
-    EventRow {
-        event: *event,
-        a_key: simulation.key(event.a),
-        b_key: event.b.map(|b| simulation.key(b)),
-        a_label: simulation.label(event.a).to_owned(),
-        b_label: event.b.map_or_else(String::new, |b| simulation.label(b).to_owned()),
-        dt_index: 1,
+    let frame = runner.frame();
+    match (frame.state, &frame.fault) {
+        // The message begins with the time, which a fault tells of itself.
+        (RunState::Faulted, Some(text)) => {
+            let message = text.split_once(": ").map_or(text.as_str(), |(_, message)| message);
+            Err(Fault { time: frame.time, message: message.to_owned() })
+        }
+        _ => Ok(frame),
     }
 }
 

@@ -4,6 +4,9 @@ use three_d::{Context, InstanceBuffer, Program};
 
 use crate::view::{Arrow, Color, DrawList, Line, Plate, Point, PointShape, Sphere, Stroke};
 
+/// From one line of the hatching of static spheres to the next, points across and down.
+const HATCH_POINTS: f32 = 9.0;
+
 /// A group of instances drawn with one program by one call.
 pub(super) struct Batch {
     four: Vec<(&'static str, InstanceBuffer<[f32; 4]>)>,
@@ -64,7 +67,8 @@ impl Batch {
         let center = spheres.iter().map(|s| s.center.extend(s.radius).to_array()).collect();
         let color = spheres.iter().map(|s| rgba(s.color)).collect();
         let ring = spheres.iter().map(|s| rgba(s.outline)).collect();
-        let hatch = spheres.iter().map(|s| [s.outline_width * scale, f32::from(s.hatched)]).collect();
+        let hatch = |s: &Sphere| if s.hatched { HATCH_POINTS * scale } else { 0.0 };
+        let hatch = spheres.iter().map(|s| [s.outline_width * scale, hatch(s)]).collect();
         self.fill(spheres.len(), &[center, color, ring], &[], &[hatch]);
     }
 

@@ -12,6 +12,8 @@ pub fn build_draw_list(input: &ViewInput<'_>) -> DrawList {
         (overlay.add)(&stage, &mut list);
     }
     overlays::highlight::add(&stage, &mut list);
+    // Of lines in one place the widest, such as the edge of what is selected, is seen.
+    list.lines.sort_by(|a, b| a.width.total_cmp(&b.width));
     furniture::axis_triad(&stage, &mut list);
     furniture::scale_bar(&stage, &mut list);
     furniture::legend(&stage, &mut list);

@@ -101,7 +101,7 @@ fn add_floor(stage: &Stage<'_>, list: &mut DrawList) {
             let place = unit * value + across * (near_edge + outward);
             add_floor_number(stage, list, place, &number_text(value, step));
         }
-        let place = unit * (0.5 * length) + across * (near_edge + 2.6 * outward);
+        let place = unit * (0.5 * length) + across * (near_edge + 3.2 * outward);
         add_floor_number(stage, list, place, &format!("{} [m]", axis.label()));
     }
 }

@@ -79,7 +79,9 @@ fn name<'a>(stage: &Stage<'_>, text: &'a str, place: DVec3, above: f64, rank: u8
 fn above(stage: &Stage<'_>, posed: &Posed<'_>) -> f64 {
     match posed.body.shape {
         Shape::Sphere { radius } => radius / stage.metres_per_point(posed.position) + 3.0,
-        _ => -0.5 * SIZE,
+        // Over the middle of a plate, above the cross of what can't be drawn.
+        Shape::Plane { .. } => -0.5 * SIZE,
+        Shape::Unbuilt { .. } => SIZE,
     }
 }
 
