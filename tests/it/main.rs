@@ -9,29 +9,26 @@
     reason = "a test fails by stopping; expected values need not be the same bits everywhere; files round pi"
 )]
 
+// Shared helpers: scenes, seeded numbers, driving, the all-pairs monitor.
+mod common;
 // The command table: unique names and keys, reasons for what is disabled.
 mod editor_commands;
-
 // Opening, saving, samples and the guards against losing or overwriting work.
 mod editor_files;
-
 // What an edit means for a simulation that runs.
 mod editor_live;
-
 // Selection, inspector fields, problems, new objects, clipboard, typed numbers.
 mod editor_model;
-
 // Unsaved work outlives a crash.
 mod editor_recovery;
-
 // A session with a runner that writes down what it is told.
 mod editor_support;
-
 // Undo: one point per gesture, the document alone.
 mod editor_undo;
-
 // The rules of the source tree: layers, file sizes, function sizes.
 mod layering;
+// The naive simulator that the core is compared with, and its own checks.
+mod reference;
 // Pictures drawn in software without a window: silhouettes against their areas, depth order, caching.
 mod render_pictures;
 // The verb `render` through the real program: pictures of every scene, and ways in which it ends badly.
@@ -40,6 +37,22 @@ mod render_verb;
 mod scene_edit;
 // The reader: values, defaults, labels, places.
 mod scene_read;
+// Chains of impacts with known outcomes: head-on pairs, Newton's cradle, counting π.
+mod sim_chain;
+// Bodies and forces changed while a simulation runs.
+mod sim_edits;
+// Overlaps at the start, huge and tiny numbers, nothing at all.
+mod sim_extremes;
+// Motion between events: throw, Kepler ellipse, fall through air.
+mod sim_flight;
+// Single impacts: bouncing, coming to rest, bullets, grazing passes.
+mod sim_impact;
+// Δt, tiles, file order, looking and snapshots change no bit.
+mod sim_invariance;
+// Random scenes against all pairs, the reference and conservation laws.
+mod sim_random;
+// The thesis's own scene against the reference, and its invariants over a minute.
+mod sim_thesis;
 // Cameras: rays against projections, framing, zoom to the cursor, the six axis views.
 mod view_camera;
 // Dragging and snapping, round lengths and short numbers, trails.

@@ -1,0 +1,80 @@
+//! Distances between surfaces, from the closest point.
+
+use glam::{DMat3, DVec3, dvec3};
+use polyscene::scene::{Body, Motion, Shape};
+
+/// A surface a sphere can meet.
+#[derive(Clone, Debug)]
+pub enum Surface {
+    Sphere { centre: DVec3, radius: f64 },
+    Plate { centre: DVec3, world_from_local: DMat3, half_x: f64, half_y: f64 },
+}
+
+/// How far a sphere is from something, and which way.
+#[derive(Clone, Copy, Debug)]
+pub struct Gap {
+    /// Metres, negative when they overlap.
+    pub distance: f64,
+    /// Unit vector from the sphere's centre to the nearest point of the other body.
+    pub towards: DVec3,
+}
+
+impl Surface {
+    pub fn of(body: &Body) -> Self {
+        match body.shape {
+            Shape::Sphere { radius } => Self::Sphere { centre: body.position, radius },
+            Shape::Plane { half_x, half_y } => Self::Plate {
+                centre: body.position,
+                world_from_local: euler_matrix(body.rotation),
+                half_x,
+                half_y,
+            },
+            ref other => panic!("the reference knows no {other:?}"),
+        }
+    }
+
+    /// The gap to a sphere.
+    pub fn gap(&self, point: DVec3, radius: f64) -> Gap {
+        match *self {
+            Self::Sphere { centre, radius: own } => sphere_gap(point, radius, centre, own),
+            Self::Plate { centre, world_from_local, half_x, half_y } => {
+                let local = world_from_local.transpose() * (point - centre);
+                let nearest = dvec3(local.x.clamp(-half_x, half_x), local.y.clamp(-half_y, half_y), 0.0);
+                let offset = nearest - local;
+                let towards = world_from_local * offset.normalize_or_zero();
+                Gap { distance: offset.length() - radius, towards }
+            }
+        }
+    }
+
+    /// How far a sphere reaches through a plate's infinite plane, seen from the side its normal points to;
+    /// negative when it is clear of it.
+    pub fn depth_behind(&self, point: DVec3, radius: f64) -> Option<f64> {
+        let Self::Plate { centre, world_from_local, .. } = *self else { return None };
+        Some(radius - (point - centre).dot(world_from_local.z_axis))
+    }
+}
+
+/// The gap between two spheres, seen from the first.
+pub fn sphere_gap(a: DVec3, radius_a: f64, b: DVec3, radius_b: f64) -> Gap {
+    let offset = b - a;
+    Gap { distance: offset.length() - (radius_a + radius_b), towards: offset.normalize_or_zero() }
+}
+
+/// Whether a body moves, and its radius.
+pub fn dynamic_radius(body: &Body) -> Option<f64> {
+    match (body.motion, &body.shape) {
+        (Motion::Dynamic { .. }, &Shape::Sphere { radius }) => Some(radius),
+        _ => None,
+    }
+}
+
+/// R = Rx(α)·Ry(β)·Rz(γ), multiplied out.
+fn euler_matrix(angles: DVec3) -> DMat3 {
+    let ((sa, ca), (sb, cb), (sc, cc)) = (angles.x.sin_cos(), angles.y.sin_cos(), angles.z.sin_cos());
+    DMat3::from_cols(
+        dvec3(cb * cc, ca * sc + sa * sb * cc, sa * sc - ca * sb * cc),
+        dvec3(-cb * sc, ca * cc - sa * sb * sc, sa * cc + ca * sb * sc),
+        dvec3(sb, -sa * cb, ca * cb),
+    )
+}

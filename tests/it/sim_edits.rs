@@ -1,0 +1,199 @@
+//! Bodies and forces changed while a simulation runs, at stamped times.
+
+use std::f64::consts::FRAC_PI_2;
+
+use glam::{DVec3, dvec3};
+use polyscene::scene::{ForceKind, NodeKey, Scene};
+use polyscene::sim::{EventKind, SimEdit, Simulation};
+
+use crate::common::build::{Build, Shaped, ball, empty, force, plate, thesis};
+use crate::common::drive::{
+    Run, SAMPLINGS, Sampling, advance, assert_same_bits, finished, impacts, simulation, state_of,
+};
+
+/// Runs a scene with edits at stamped times, in any way of sampling between them.
+fn run_edited(scene: &Scene, until: f64, sampling: Sampling, edits: &[(f64, SimEdit)]) -> (Simulation, Run) {
+    let mut sim = simulation(scene);
+    let mut events = Vec::new();
+    for (time, edit) in edits {
+        events.extend(advance(&mut sim, *time, sampling));
+        sim.apply(edit).unwrap_or_else(|err| panic!("{edit:?}: {err}"));
+    }
+    events.extend(advance(&mut sim, until, sampling));
+    let run = finished(&sim, events);
+    (sim, run)
+}
+
+fn uniform(acceleration_y: f64) -> ForceKind {
+    ForceKind::GravityPlane { position: DVec3::ZERO, acceleration: dvec3(0.0, acceleration_y, 0.0) }
+}
+
+fn wall_at(x: f64) -> polyscene::scene::Body {
+    plate(1, dvec3(x, 5.0, 5.0), dvec3(0.0, FRAC_PI_2, 0.0), 2.0, 2.0)
+}
+
+#[test]
+fn added_body_is_met() {
+    let scene = empty().ball(1, dvec3(2.0, 5.0, 5.0), DVec3::X);
+    let added = SimEdit::AddBody(Box::new(ball(2, dvec3(8.0, 5.0, 5.0), -DVec3::X)));
+    let (sim, run) = run_edited(&scene, 5.0, Sampling::Every(0.3), &[(1.0, added)]);
+    // At t = 1 the first is at 3: 4 m between surfaces, closing with 2 m/s.
+    let hits = impacts(&run.events);
+    assert_eq!(hits.len(), 1, "{:?}", run.events);
+    assert!((hits[0].time - 3.0).abs() <= 1e-14, "{:?}", hits[0]);
+    assert_eq!(sim.dynamic_count(), 2);
+    assert!((state_of(&sim, 2).velocity - DVec3::X).length() <= 1e-15);
+}
+
+#[test]
+fn removed_bodies_are_met_no_more() {
+    let scene = empty()
+        .body(wall_at(9.0))
+        .ball(2, dvec3(2.0, 5.0, 5.0), DVec3::X)
+        .ball(3, dvec3(6.0, 5.0, 5.0), DVec3::ZERO);
+    let edits = [(1.0, SimEdit::Remove(NodeKey(3))), (4.0, SimEdit::Remove(NodeKey(1)))];
+    let (sim, run) = run_edited(&scene, 20.0, Sampling::Every(0.7), &edits);
+    assert_eq!(impacts(&run.events).len(), 0, "{:?}", run.events);
+    assert_eq!((sim.dynamic_count(), sim.static_count()), (1, 0));
+    assert!((state_of(&sim, 2).position - dvec3(22.0, 5.0, 5.0)).length() <= 1e-13);
+    assert_eq!(sim.find(NodeKey(3)), None);
+}
+
+#[test]
+fn body_that_lay_on_a_removed_one_falls() {
+    let resting = ball(2, dvec3(5.0, 4.5, 5.0), DVec3::ZERO).bounce(0.5);
+    let shelf = plate(1, dvec3(5.0, 4.0, 5.0), dvec3(-FRAC_PI_2, 0.0, 0.0), 1.0, 1.0);
+    let scene = empty().gravity(-9.8).body(shelf).body(resting);
+    let (sim, _) = run_edited(&scene, 3.0, Sampling::Every(0.1), &[(2.0, SimEdit::Remove(NodeKey(1)))]);
+    assert!((state_of(&sim, 2).position.y - (4.5 - 4.9)).abs() <= 1e-8, "{:?}", state_of(&sim, 2));
+}
+
+#[test]
+fn changed_forces_act_from_their_time_on() {
+    let scene = empty().gravity(-9.8).ball(1, DVec3::splat(5.0), DVec3::ZERO);
+    let edits = [
+        (1.0, SimEdit::ChangeForce(Box::new(force(1, uniform(4.9))))),
+        (2.0, SimEdit::AddForce(Box::new(force(2, uniform(2.1))))),
+        (3.0, SimEdit::Remove(force(1, uniform(0.0)).key)),
+        (4.0, SimEdit::Remove(force(2, uniform(0.0)).key)),
+    ];
+    for sampling in [Sampling::Every(1.0), Sampling::Every(1.0 / 60.0), Sampling::Random(1)] {
+        let (sim, run) = run_edited(&scene, 6.0, sampling, &edits);
+        // v: −9.8, −4.9, 2.1, 4.2 and then constant.
+        let y = 5.0 - 4.9 - 7.35 - 1.4 + 3.15 + 2.0 * 4.2;
+        let state = state_of(&sim, 1);
+        assert!((state.position.y - y).abs() <= 1e-12, "{sampling:?}: {state:?}, expected {y}");
+        assert!((state.velocity.y - 4.2).abs() <= 1e-13, "{sampling:?}: {state:?}");
+        assert!(run.events.iter().all(|event| event.kind == EventKind::Edit), "{:?}", run.events);
+    }
+}
+
+#[test]
+fn attractor_may_be_switched_on_and_off() {
+    // With the pull off, the body goes on straight.
+    let scene = empty().ball(1, dvec3(9.0, 5.0, 5.0), DVec3::Z);
+    let pull = force(1, ForceKind::GravityPoint { position: DVec3::splat(5.0), intensity: 4.0 });
+    let edits = [(1.0, SimEdit::AddForce(Box::new(pull.clone()))), (1.0, SimEdit::Remove(pull.key))];
+    let (sim, _) = run_edited(&scene, 3.0, Sampling::Every(0.25), &edits);
+    assert!((state_of(&sim, 1).position - dvec3(9.0, 5.0, 8.0)).length() <= 1e-13);
+
+    let (mut sim, _) = run_edited(&scene, 1.0, Sampling::Every(0.25), &[]);
+    sim.apply(&SimEdit::AddForce(Box::new(pull.clone()))).expect("a new force");
+    let before = sim.energy().total.expect("an attractor has a potential");
+    advance(&mut sim, 5.0, Sampling::Every(0.25));
+    let after = sim.energy().total.expect("an attractor has a potential");
+    assert!((after / before - 1.0).abs() <= 1e-11, "energy {before} and {after}");
+    sim.apply(&SimEdit::Remove(pull.key)).expect("it is there");
+    let parted = state_of(&sim, 1);
+    advance(&mut sim, 7.0, Sampling::Every(0.25));
+    let expected = parted.position + parted.velocity * 2.0;
+    assert!((state_of(&sim, 1).position - expected).length() <= 1e-12);
+}
+
+#[test]
+fn moved_static_is_met_at_its_new_place() {
+    let scene = empty().body(wall_at(6.0)).ball(2, dvec3(2.0, 5.0, 5.0), DVec3::X);
+    let moved = SimEdit::ChangeStatic(Box::new(wall_at(8.0)));
+    let (_, run) = run_edited(&scene, 9.0, Sampling::Every(0.4), &[(2.0, moved)]);
+    let hits = impacts(&run.events);
+    assert_eq!(hits.len(), 1, "{:?}", run.events);
+    assert!((hits[0].time - 5.5).abs() <= 1e-14, "{:?}", hits[0]);
+}
+
+#[test]
+fn mass_and_bounce_count_from_their_time_on() {
+    let scene = empty().ball(1, dvec3(2.0, 5.0, 5.0), DVec3::X * 2.0).ball(2, dvec3(6.0, 5.0, 5.0), DVec3::ZERO);
+    let edits = [(0.5, SimEdit::Mass(NodeKey(1), 3.0)), (0.5, SimEdit::Bounce(NodeKey(2), 0.5))];
+    let (sim, run) = run_edited(&scene, 2.0, Sampling::Every(0.4), &edits);
+    // J = (1+e) μ Δv = 1.5 · 0.75 · 2.
+    let hits = impacts(&run.events);
+    assert!((hits[0].impulse - 2.25).abs() <= 1e-13, "{:?}", run.events);
+    assert!((state_of(&sim, 1).velocity.x - 1.25).abs() <= 1e-13);
+    assert!((state_of(&sim, 2).velocity.x - 2.25).abs() <= 1e-13);
+}
+
+#[test]
+fn residual_leaves_out_the_work_of_edits() {
+    let scene = empty().gravity(-9.8).floor(1, 3.0).body(ball(2, dvec3(5.0, 5.0, 5.0), DVec3::ZERO).bounce(0.9));
+    let mut sim = simulation(&scene);
+    let edits = [
+        SimEdit::Mass(NodeKey(2), 5.0),
+        SimEdit::ChangeForce(Box::new(force(1, uniform(-4.0)))),
+        SimEdit::AddBody(Box::new(ball(3, dvec3(3.0, 3.0, 5.0), DVec3::X))),
+        SimEdit::AddForce(Box::new(force(7, ForceKind::Drag { density: 3.0 }))),
+        SimEdit::Remove(NodeKey(2)),
+    ];
+    for (k, edit) in edits.iter().enumerate() {
+        sim.apply(edit).unwrap_or_else(|err| panic!("{edit:?}: {err}"));
+        advance(&mut sim, 1.5 * (k + 1) as f64, Sampling::Every(0.2));
+        let residual = sim.energy().residual.expect("built-in forces have a balance");
+        assert!(residual.abs() <= 1e-10, "after {edit:?}: {residual:e}");
+    }
+}
+
+#[test]
+fn refused_edits_change_nothing() {
+    let mut sim = simulation(&thesis());
+    advance(&mut sim, 1.0, Sampling::Every(0.5));
+    let before = sim.hash();
+    let bad = [
+        SimEdit::Remove(NodeKey(424_242)),
+        SimEdit::Mass(NodeKey(5853), 0.0),
+        SimEdit::Mass(NodeKey(5853), f64::NAN),
+        SimEdit::Mass(NodeKey(8855), 2.0),
+        SimEdit::Bounce(NodeKey(5853), -1.0),
+        SimEdit::AddBody(Box::new(ball(5853, DVec3::ONE, DVec3::ZERO))),
+        SimEdit::AddBody(Box::new(ball(99, DVec3::ONE, dvec3(f64::INFINITY, 0.0, 0.0)))),
+        SimEdit::ChangeForce(Box::new(force(424_242, uniform(1.0)))),
+        SimEdit::ChangeStatic(Box::new(plate(424_242, DVec3::ONE, DVec3::ZERO, 1.0, 1.0))),
+    ];
+    for edit in &bad {
+        assert!(sim.apply(edit).is_err(), "{edit:?} was taken");
+        assert_eq!(sim.hash(), before, "{edit:?}");
+    }
+}
+
+#[test]
+fn the_same_edits_give_the_same_bits() {
+    let scene = thesis();
+    let edits = [
+        (0.5, SimEdit::AddBody(Box::new(ball(77, dvec3(2.0, 8.0, 7.0), dvec3(1.0, 0.0, 2.0)).bounce(0.8)))),
+        (1.25, SimEdit::ChangeForce(Box::new(force(7045, ForceKind::GravityPoint {
+            position: DVec3::splat(5.0),
+            intensity: -3.0,
+        })))),
+        (2.0, SimEdit::ChangeStatic(Box::new(plate(28100, dvec3(5.0, 3.0, 3.0), dvec3(0.3, 0.5, 0.0), 1.0, 1.5)))),
+        (3.0, SimEdit::Remove(NodeKey(8945))),
+        (3.0, SimEdit::Bounce(NodeKey(5853), 0.9)),
+        (4.0, SimEdit::AddForce(Box::new(force(3, ForceKind::Drag { density: 1.3 })))),
+        (5.0, SimEdit::Mass(NodeKey(15921), 4.0)),
+    ];
+    let (_, expected) = run_edited(&scene, 8.0, Sampling::Every(1.0), &edits);
+    assert!(impacts(&expected.events).len() > 10, "{} events", expected.events.len());
+    for tiles in [1, 10, 37] {
+        for sampling in SAMPLINGS {
+            let (_, got) = run_edited(&scene.clone().tiles([tiles; 3]), 8.0, sampling, &edits);
+            assert_same_bits(&expected, &got, &format!("{sampling:?}, {tiles}³ tiles"));
+        }
+    }
+}
