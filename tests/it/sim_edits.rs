@@ -47,10 +47,11 @@ fn added_body_is_met() {
 
 #[test]
 fn removed_bodies_are_met_no_more() {
-    let scene = empty()
-        .body(wall_at(9.0))
-        .ball(2, dvec3(2.0, 5.0, 5.0), DVec3::X)
-        .ball(3, dvec3(6.0, 5.0, 5.0), DVec3::ZERO);
+    let scene = empty().body(wall_at(9.0)).ball(2, dvec3(2.0, 5.0, 5.0), DVec3::X).ball(
+        3,
+        dvec3(6.0, 5.0, 5.0),
+        DVec3::ZERO,
+    );
     let edits = [(1.0, SimEdit::Remove(NodeKey(3))), (4.0, SimEdit::Remove(NodeKey(1)))];
     let (sim, run) = run_edited(&scene, 20.0, Sampling::Every(0.7), &edits);
     assert_eq!(impacts(&run.events).len(), 0, "{:?}", run.events);
@@ -122,7 +123,8 @@ fn moved_static_is_met_at_its_new_place() {
 
 #[test]
 fn mass_and_bounce_count_from_their_time_on() {
-    let scene = empty().ball(1, dvec3(2.0, 5.0, 5.0), DVec3::X * 2.0).ball(2, dvec3(6.0, 5.0, 5.0), DVec3::ZERO);
+    let scene =
+        empty().ball(1, dvec3(2.0, 5.0, 5.0), DVec3::X * 2.0).ball(2, dvec3(6.0, 5.0, 5.0), DVec3::ZERO);
     let edits = [(0.5, SimEdit::Mass(NodeKey(1), 3.0)), (0.5, SimEdit::Bounce(NodeKey(2), 0.5))];
     let (sim, run) = run_edited(&scene, 2.0, Sampling::Every(0.4), &edits);
     // J = (1+e) μ Δv = 1.5 · 0.75 · 2.
@@ -134,7 +136,8 @@ fn mass_and_bounce_count_from_their_time_on() {
 
 #[test]
 fn residual_leaves_out_the_work_of_edits() {
-    let scene = empty().gravity(-9.8).floor(1, 3.0).body(ball(2, dvec3(5.0, 5.0, 5.0), DVec3::ZERO).bounce(0.9));
+    let scene =
+        empty().gravity(-9.8).floor(1, 3.0).body(ball(2, dvec3(5.0, 5.0, 5.0), DVec3::ZERO).bounce(0.9));
     let mut sim = simulation(&scene);
     let edits = [
         SimEdit::Mass(NodeKey(2), 5.0),
@@ -178,11 +181,23 @@ fn the_same_edits_give_the_same_bits() {
     let scene = thesis();
     let edits = [
         (0.5, SimEdit::AddBody(Box::new(ball(77, dvec3(2.0, 8.0, 7.0), dvec3(1.0, 0.0, 2.0)).bounce(0.8)))),
-        (1.25, SimEdit::ChangeForce(Box::new(force(7045, ForceKind::GravityPoint {
-            position: DVec3::splat(5.0),
-            intensity: -3.0,
-        })))),
-        (2.0, SimEdit::ChangeStatic(Box::new(plate(28100, dvec3(5.0, 3.0, 3.0), dvec3(0.3, 0.5, 0.0), 1.0, 1.5)))),
+        (
+            1.25,
+            SimEdit::ChangeForce(Box::new(force(
+                7045,
+                ForceKind::GravityPoint { position: DVec3::splat(5.0), intensity: -3.0 },
+            ))),
+        ),
+        (
+            2.0,
+            SimEdit::ChangeStatic(Box::new(plate(
+                28100,
+                dvec3(5.0, 3.0, 3.0),
+                dvec3(0.3, 0.5, 0.0),
+                1.0,
+                1.5,
+            ))),
+        ),
         (3.0, SimEdit::Remove(NodeKey(8945))),
         (3.0, SimEdit::Bounce(NodeKey(5853), 0.9)),
         (4.0, SimEdit::AddForce(Box::new(force(3, ForceKind::Drag { density: 1.3 })))),

@@ -62,9 +62,8 @@ fn kepler(semi_axis: f64, eccentricity: f64, intensity: f64, t: f64) -> DVec3 {
 fn kepler_ellipse_stays_for_a_hundred_orbits() {
     // NUMERICS case 9, e = 0.6: a = 2.5 m, G = 10 m³/s², T = 2.5π s, 1 m and 4 m/s at the periapsis.
     let centre = DVec3::splat(5.0);
-    let scene = empty()
-        .attractor(centre, 10.0)
-        .body(ball(1, centre + DVec3::X, dvec3(0.0, 0.0, -4.0)).radius(0.15));
+    let scene =
+        empty().attractor(centre, 10.0).body(ball(1, centre + DVec3::X, dvec3(0.0, 0.0, -4.0)).radius(0.15));
     let energy = 8.0 - 10.0;
     for dt in STEPS {
         let stride = (0.1 / dt).ceil() as u64;

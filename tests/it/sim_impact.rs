@@ -141,7 +141,8 @@ fn assert_hit(event: &Event, time: f64, point: DVec3, normal: DVec3) {
 #[test]
 fn bullet_meets_face_edge_and_corner_where_geometry_says() {
     // NUMERICS case 6. Beyond the sides by (dy, dz), contact comes at x = 10 − √(r² − dy² − dz²).
-    let offsets = [(0.0, 0.0), (-0.3, 0.7), (1.03, 0.0), (-0.2, -1.04), (1.03, 1.02), (-1.01, 1.03), (1.0499, 0.0)];
+    let offsets =
+        [(0.0, 0.0), (-0.3, 0.7), (1.03, 0.0), (-0.2, -1.04), (1.03, 1.02), (-1.01, 1.03), (1.0499, 0.0)];
     for (y, z) in offsets {
         let beyond = |offset: f64| offset.signum() * (offset.abs() - 1.0).max(0.0);
         let (dy, dz) = (beyond(y), beyond(z));
@@ -212,7 +213,13 @@ fn grazing_passes_tell_hit_from_miss() {
 fn apex_of_a_throw_tells_hit_from_miss() {
     // Thrown up with v, the top of the ball reaches v²/2g above its start: 1e-9 m below or above a ceiling.
     let ceiling = |height: f64| {
-        let scene = empty().gravity(-9.8).plate(1, dvec3(5.0, 1.5 + height, 5.0), dvec3(FRAC_PI_2, 0.0, 0.0), 2.0, 2.0);
+        let scene = empty().gravity(-9.8).plate(
+            1,
+            dvec3(5.0, 1.5 + height, 5.0),
+            dvec3(FRAC_PI_2, 0.0, 0.0),
+            2.0,
+            2.0,
+        );
         scene.ball(2, dvec3(5.0, 1.0, 5.0), dvec3(0.5, 7.0, 0.0))
     };
     assert!(hits(&ceiling(2.5 - 1e-9)));
@@ -222,9 +229,11 @@ fn apex_of_a_throw_tells_hit_from_miss() {
 #[test]
 fn plates_are_hit_from_both_sides() {
     for sign in [1.0, -1.0] {
-        let scene = empty()
-            .plate(1, DVec3::splat(5.0), DVec3::ZERO, 1.0, 1.0)
-            .ball(2, dvec3(5.0, 5.0, 5.0 + sign * 3.0), dvec3(0.0, 0.0, -sign));
+        let scene = empty().plate(1, DVec3::splat(5.0), DVec3::ZERO, 1.0, 1.0).ball(
+            2,
+            dvec3(5.0, 5.0, 5.0 + sign * 3.0),
+            dvec3(0.0, 0.0, -sign),
+        );
         let run = run(&scene, 4.0, Sampling::Every(0.3));
         assert_eq!(run.events.len(), 1);
         assert_hit(&run.events[0], 2.5, DVec3::splat(5.0), dvec3(0.0, 0.0, sign));

@@ -4,9 +4,7 @@ use glam::DVec3;
 use polyscene::scene::Scene;
 
 use crate::common::build::{Build, thesis};
-use crate::common::drive::{
-    Run, SAMPLINGS, Sampling, advance, assert_same_bits, finished, run, simulation,
-};
+use crate::common::drive::{Run, SAMPLINGS, Sampling, advance, assert_same_bits, finished, run, simulation};
 use crate::common::load::load;
 use crate::common::random::Random;
 use crate::sim_random::{Contents, random_scene};
@@ -70,7 +68,12 @@ fn random_scenes_give_the_same_bits() {
 fn every_sample_scene_gives_the_same_bits() {
     for file in ["bounce.xml", "rest.xml", "slide.xml", "cradle.xml", "orbit.xml", "drag.xml", "bullet.xml"] {
         let scene = load(file);
-        assert_invariant(&scene, 12.0, &[Sampling::Every(1.0 / 60.0), Sampling::Random(1), Sampling::Events], file);
+        assert_invariant(
+            &scene,
+            12.0,
+            &[Sampling::Every(1.0 / 60.0), Sampling::Random(1), Sampling::Events],
+            file,
+        );
     }
 }
 
@@ -139,7 +142,8 @@ fn a_step_may_be_given_up_for_another() {
         // Back to now, which changes nothing, and on by a little.
         sim.begin(0.0);
         assert_eq!(sim.next_event().expect("a run without faults"), None);
-        events.extend(advance(&mut sim, (sim.time() + 0.01).min(6.0), Sampling::Every(1.0)));
+        let little = (sim.time() + 0.01).min(6.0);
+        events.extend(advance(&mut sim, little, Sampling::Every(1.0)));
         if sim.time() >= 5.0 {
             break;
         }

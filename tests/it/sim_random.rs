@@ -44,7 +44,8 @@ pub fn random_scene(seed: u64, contents: Contents) -> Scene {
     };
     for id in 10..14 {
         let rotation = random.vector(PI);
-        let (position, half) = (DVec3::splat(5.0) + random.vector(3.5), [0, 1].map(|_| random.range(0.3, 2.0)));
+        let (position, half) =
+            (DVec3::splat(5.0) + random.vector(3.5), [0, 1].map(|_| random.range(0.3, 2.0)));
         scene = scene.body(plate(id, position, rotation, half[0], half[1]).bounce(bounce(&mut random)));
     }
     for id in 14..16 {
@@ -55,7 +56,8 @@ pub fn random_scene(seed: u64, contents: Contents) -> Scene {
         let (radius, velocity) = (random.range(0.1, 0.8), random.vector(6.0));
         let position = free_place(&scene, radius, &mut random);
         let mass = 10.0_f64.powf(random.range(-1.5, 1.5));
-        scene = scene.body(ball(id, position, velocity).radius(radius).mass(mass).bounce(bounce(&mut random)));
+        scene =
+            scene.body(ball(id, position, velocity).radius(radius).mass(mass).bounce(bounce(&mut random)));
     }
     scene
 }
@@ -88,7 +90,11 @@ fn elastic_scenes_agree_with_the_reference() {
             }
             let b = event.b.expect("an impact has two bodies");
             let labels = [sim.label(event.a), sim.label(b)];
-            assert_eq!(labels, [impact.a.to_string(), impact.b.to_string()], "seed {seed}: {event:?} {impact:?}");
+            assert_eq!(
+                labels,
+                [impact.a.to_string(), impact.b.to_string()],
+                "seed {seed}: {event:?} {impact:?}"
+            );
             assert!((event.time - impact.time).abs() <= 1e-8, "seed {seed}: {event:?} {impact:?}");
             assert!((event.point - impact.point).length() <= 1e-7, "seed {seed}: {event:?} {impact:?}");
             assert!((event.normal - impact.normal).length() <= 1e-6, "seed {seed}: {event:?} {impact:?}");
@@ -103,14 +109,19 @@ fn lossy_scenes_begin_like_the_reference() {
         let mut reference = Reference::new(&scene);
         let events = run(&scene, 1.0, Sampling::Every(1.0 / 60.0)).events;
         let sim = simulation(&scene);
-        for event in events.iter().take(8) {
-            if event.kind != EventKind::Impact {
+        for event in events.iter().take(12) {
+            // The last of many bounces are too weak to compare, and the reference knows no rest.
+            if event.kind != EventKind::Impact || event.vn_before > -1e-3 {
                 break;
             }
             let impact = reference.next_impact(2.0).expect("as many impacts");
             let b = event.b.expect("an impact has two bodies");
             let labels = [sim.label(event.a), sim.label(b)];
-            assert_eq!(labels, [impact.a.to_string(), impact.b.to_string()], "seed {seed}: {event:?} {impact:?}");
+            assert_eq!(
+                labels,
+                [impact.a.to_string(), impact.b.to_string()],
+                "seed {seed}: {event:?} {impact:?}"
+            );
             assert!((event.time - impact.time).abs() <= 1e-8, "seed {seed}: {event:?} {impact:?}");
             let impulse = (event.impulse / impact.impulse - 1.0).abs();
             assert!(impulse <= 1e-6, "seed {seed}: {event:?} {impact:?}");
@@ -128,7 +139,9 @@ fn energy(sim: &Simulation, scene: &Scene) -> f64 {
         let state = sim.find(key).and_then(|body| sim.state(body)).expect("a body got lost");
         let potential = scene.forces.iter().map(|force| match force.kind {
             ForceKind::GravityPlane { acceleration, .. } => -acceleration.dot(state.position),
-            ForceKind::GravityPoint { position, intensity } => -intensity / (position - state.position).length(),
+            ForceKind::GravityPoint { position, intensity } => {
+                -intensity / (position - state.position).length()
+            }
             ForceKind::Drag { .. } => 0.0,
         });
         mass * (state.velocity.length_squared() / 2.0 + potential.sum::<f64>())

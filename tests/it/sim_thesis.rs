@@ -22,7 +22,10 @@ fn scene_file_says_what_the_thesis_says() {
     }
     for (left, right) in file.bodies.iter().zip(&transcript.bodies) {
         assert_eq!((left.id, left.bounce, left.motion), (right.id, right.bounce, right.motion));
-        assert_eq!((left.position, left.rotation, &left.shape), (right.position, right.rotation, &right.shape));
+        assert_eq!(
+            (left.position, left.rotation, &left.shape),
+            (right.position, right.rotation, &right.shape)
+        );
     }
 }
 

@@ -25,11 +25,6 @@ pub trait Build: Sized {
         self
     }
 
-    fn size(mut self, size: DVec3) -> Self {
-        self.scene().map.size = size;
-        self
-    }
-
     fn force(mut self, kind: ForceKind) -> Self {
         let id = self.scene().forces.len() as i64 + 1;
         self.scene().forces.push(force(id, kind));

@@ -6,6 +6,7 @@ use glam::{DVec3, dvec3};
 
 use super::Reference;
 use crate::common::build::{Build, Shaped, ball, empty, static_ball, thesis};
+use crate::sim_chain::counting_pi;
 
 #[test]
 fn kepler_orbit_closes() {
@@ -82,5 +83,12 @@ fn thirty_events_do_not_depend_on_the_step() {
     for (left, right) in coarse.iter().zip(&fine) {
         assert_eq!((left.a, left.b), (right.a, right.b));
         assert!((left.time - right.time).abs() < 1e-10, "{left:?} {right:?}");
+    }
+}
+
+#[test]
+fn collisions_count_the_digits_of_pi() {
+    for (k, expected) in [(0, 3), (1, 31), (2, 314), (3, 3141)] {
+        assert_eq!(Reference::new(&counting_pi(k)).impacts(20.0).len(), expected);
     }
 }

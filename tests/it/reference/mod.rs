@@ -7,4 +7,4 @@ pub mod flight;
 pub mod geometry;
 pub mod simulator;
 
-pub use simulator::{Impact, Reference};
+pub use simulator::Reference;

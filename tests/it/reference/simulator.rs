@@ -66,10 +66,6 @@ impl Reference {
         Self { time: 0.0, time_rest: 0.0, balls, statics, forces: scene.forces.clone(), stride }
     }
 
-    pub fn time(&self) -> f64 {
-        self.time
-    }
-
     pub fn energy(&self) -> f64 {
         self.balls.iter().map(|ball| ball.energy(&self.forces)).sum()
     }
