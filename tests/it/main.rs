@@ -27,6 +27,8 @@ mod editor_support;
 mod editor_undo;
 // The rules of the source tree: layers, file sizes, function sizes.
 mod layering;
+// Runners: the Δt grid, going back, edits with their stamps, playing.
+mod record_runner;
 // The naive simulator that the core is compared with, and its own checks.
 mod reference;
 // Pictures drawn in software without a window: silhouettes against their areas, depth order, caching.
@@ -39,6 +41,8 @@ mod scene_edit;
 mod scene_read;
 // Chains of impacts with known outcomes: head-on pairs, Newton's cradle, counting π.
 mod sim_chain;
+// Lasting contact: inclines, corners, edges, air, lifting off.
+mod sim_contact;
 // Bodies and forces changed while a simulation runs.
 mod sim_edits;
 // Overlaps at the start, huge and tiny numbers, nothing at all.
@@ -65,6 +69,3 @@ mod view_pick;
 mod view_scenes;
 // Which walls of a closed box are glass, from everywhere.
 mod view_see_through;
-
-// Runners: the Δt grid, going back, edits with their stamps, playing.
-mod record_runner;

@@ -19,6 +19,8 @@ use crate::reference::geometry::Surface;
 pub enum Contents {
     /// No losses: uniform gravity and an attractor.
     Elastic,
+    /// Uniform gravity, statics with bounces in 0..1: balls come to rest on them, but not on each other.
+    LossyStatics,
     /// Uniform gravity, bounces anywhere in 0..1.
     Lossy,
     /// Gravity, an attractor, air, bounces of 0, anything and 1.
@@ -31,14 +33,23 @@ pub fn random_scene(seed: u64, contents: Contents) -> Scene {
     let gravity = random.vector(6.0) - DVec3::Y * 5.0;
     let uniform = ForceKind::GravityPlane { position: DVec3::ZERO, acceleration: gravity };
     let mut scene = empty().walls(1).force(uniform);
-    if contents != Contents::Lossy {
+    let wall_bounce = if contents == Contents::LossyStatics { 0.6 } else { 1.0 };
+    scene.bodies.iter_mut().for_each(|wall| wall.bounce = wall_bounce);
+    if matches!(contents, Contents::Elastic | Contents::Everything) {
         scene = scene.attractor(dvec3(5.0, 4.0, 6.0), random.range(-4.0, 8.0));
     }
     if contents == Contents::Everything {
         scene = scene.air(random.range(0.0, 20.0));
     }
-    let bounce = |random: &mut Random| match contents {
+    let bounce = |random: &mut Random, is_static: bool| match contents {
         Contents::Elastic => 1.0,
+        Contents::LossyStatics => {
+            if is_static {
+                random.unit()
+            } else {
+                1.0
+            }
+        }
         Contents::Lossy => random.unit(),
         Contents::Everything => [0.0, random.unit(), 1.0][random.below(3)],
     };
@@ -46,18 +57,19 @@ pub fn random_scene(seed: u64, contents: Contents) -> Scene {
         let rotation = random.vector(PI);
         let (position, half) =
             (DVec3::splat(5.0) + random.vector(3.5), [0, 1].map(|_| random.range(0.3, 2.0)));
-        scene = scene.body(plate(id, position, rotation, half[0], half[1]).bounce(bounce(&mut random)));
+        scene = scene.body(plate(id, position, rotation, half[0], half[1]).bounce(bounce(&mut random, true)));
     }
     for id in 14..16 {
         let position = DVec3::splat(5.0) + random.vector(4.0);
-        scene = scene.body(static_ball(id, position, random.range(0.2, 1.0)).bounce(bounce(&mut random)));
+        scene =
+            scene.body(static_ball(id, position, random.range(0.2, 1.0)).bounce(bounce(&mut random, true)));
     }
     for id in 20..27 {
         let (radius, velocity) = (random.range(0.1, 0.8), random.vector(6.0));
         let position = free_place(&scene, radius, &mut random);
         let mass = 10.0_f64.powf(random.range(-1.5, 1.5));
-        scene =
-            scene.body(ball(id, position, velocity).radius(radius).mass(mass).bounce(bounce(&mut random)));
+        scene = scene
+            .body(ball(id, position, velocity).radius(radius).mass(mass).bounce(bounce(&mut random, false)));
     }
     scene
 }
@@ -75,7 +87,7 @@ fn free_place(scene: &Scene, radius: f64, random: &mut Random) -> DVec3 {
 
 #[test]
 fn elastic_scenes_agree_with_the_reference() {
-    for seed in 0..20 {
+    for seed in 0..10 {
         let scene = random_scene(seed, Contents::Elastic);
         let [mut reference, mut check] = [0.2, 0.07].map(|stride| Reference::with_stride(&scene, stride));
         let events = run(&scene, 3.0, Sampling::Every(1.0 / 60.0)).events;
@@ -150,7 +162,7 @@ fn energy(sim: &Simulation, scene: &Scene) -> f64 {
 }
 
 /// No overlap, energy never up, the residual small, everything inside and finite.
-fn assert_sound(scene: &Scene, until: f64, what: &str) {
+pub fn assert_sound(scene: &Scene, until: f64, what: &str) {
     let monitor = Monitor::new(scene);
     let mut sim = simulation(scene);
     let mut last = energy(&sim, scene);
@@ -174,20 +186,6 @@ fn assert_sound(scene: &Scene, until: f64, what: &str) {
 fn elastic_scenes_stay_sound() {
     for seed in 100..112 {
         assert_sound(&random_scene(seed, Contents::Elastic), 5.0, &format!("seed {seed}"));
-    }
-}
-
-#[test]
-fn lossy_scenes_stay_sound_and_come_to_an_end() {
-    for seed in 200..220 {
-        assert_sound(&random_scene(seed, Contents::Lossy), 8.0, &format!("seed {seed}"));
-    }
-}
-
-#[test]
-fn scenes_of_everything_stay_sound() {
-    for seed in 300..320 {
-        assert_sound(&random_scene(seed, Contents::Everything), 5.0, &format!("seed {seed}"));
     }
 }
 
