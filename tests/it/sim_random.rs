@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use glam::{DVec3, dvec3};
-use polyscene::scene::{ForceKind, Motion, Scene};
+use polyscene::scene::{Body, ForceKind, Motion, Scene};
 use polyscene::sim::{EventKind, Simulation};
 
 use crate::common::build::{Build, Shaped, ball, empty, plate, static_ball};
@@ -203,7 +203,7 @@ fn gas_stays_sound() {
 #[test]
 fn free_gas_keeps_its_momentum() {
     let mut scene = load("gas.xml");
-    scene.bodies.retain(|body| body.is_dynamic());
+    scene.bodies.retain(Body::is_dynamic);
     let mut sim = simulation(&scene);
     let start = sim.momentum().value;
     watch(&mut sim, 5.0, Sampling::Every(0.5), |sim, _| {

@@ -29,7 +29,7 @@ impl Surface {
                 half_x,
                 half_y,
             },
-            ref other => panic!("the reference knows no {other:?}"),
+            ref other @ Shape::Unbuilt { .. } => panic!("the reference knows no {other:?}"),
         }
     }
 

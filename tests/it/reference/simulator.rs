@@ -156,8 +156,8 @@ impl Reference {
         if before.0.distance > 4.0 * self.reach(pair) {
             return None;
         }
-        for k in 1..=LOOKS {
-            let after = self.gap(pair, &looks[k]);
+        for (k, look) in looks.iter().enumerate().skip(1) {
+            let after = self.gap(pair, look);
             let contact = self.contact_between(pair, (at(k - 1), before), (at(k), after));
             if contact.is_some() {
                 return contact;
