@@ -12,3 +12,8 @@ pub mod render;
 pub mod scene;
 pub mod sim;
 pub mod view;
+
+/// The examples of the README, as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeExamples;

@@ -25,6 +25,8 @@ mod editor_recovery;
 mod editor_support;
 // Undo: one point per gesture, the document alone.
 mod editor_undo;
+// The command line through the real program: formats, exit codes, streams, hostile files.
+mod cli;
 // The rules of the source tree: layers, file sizes, function sizes.
 mod layering;
 // Runners: the Δt grid, going back, edits with their stamps, playing.

@@ -1,18 +1,29 @@
 //! Ctrl-C ends a run between two events, so that files end with a whole line; twice ends it at once.
 
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 static STOP: AtomicBool = AtomicBool::new(false);
 
+/// Nobody who asks a program to end waits longer than this for the next event.
+const PATIENCE: Duration = Duration::from_secs(2);
+
 /// The flag that Ctrl-C (or a request to terminate) raises from now on.
 pub fn on_interrupt() -> &'static AtomicBool {
-    #[allow(clippy::exit, reason = "whoever asks twice does not want to wait for the next event")]
-    let stop = || {
-        if STOP.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
-        }
-    };
     // Without a handler Ctrl-C simply ends the program, which is no reason not to run.
-    let _ = ctrlc::set_handler(stop);
+    let _ = ctrlc::set_handler(|| {
+        if STOP.swap(true, Ordering::Relaxed) {
+            give_up();
+        }
+        std::thread::spawn(|| {
+            std::thread::sleep(PATIENCE);
+            give_up();
+        });
+    });
     &STOP
+}
+
+#[allow(clippy::exit, reason = "the run has not looked at the flag in time")]
+fn give_up() -> ! {
+    std::process::exit(130)
 }

@@ -45,7 +45,8 @@ pub(in crate::sim) fn begin_segment(
         let subject = subject_at(model, body, time, x, v);
         Segment::ballistic(time, x, v, acceleration_of(model, &state.contacts[body as usize], &subject))
     };
-    if !(segment.x.is_finite() && segment.v.is_finite() && segment.a.is_finite()) {
+    // The squares too: searches work with lengths, and do not end on infinite ones.
+    if ![segment.x, segment.v, segment.a].iter().all(|vector| vector.length_squared().is_finite()) {
         return Err(SegmentError::NotFinite);
     }
     let index = body as usize;

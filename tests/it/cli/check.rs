@@ -1,0 +1,80 @@
+//! `check` prints `file:line:column: severity: text (path); hint`, one problem per line.
+
+use std::io::Write as _;
+use std::process::Stdio;
+
+use super::{BOUNCE, Bench, outcome, scene_files, scenes_folder};
+
+#[test]
+fn a_sound_scene_prints_nothing_on_stdout() {
+    let outcome = Bench::with_scene(BOUNCE).polyscene(&["check", "scene.xml"]);
+    assert_eq!((outcome.code, outcome.stdout.as_str()), (0, ""), "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("1 file, 0 errors, 0 warnings"), "{}", outcome.stderr);
+}
+
+#[test]
+fn every_problem_is_one_line_with_its_place() {
+    let bench = Bench::new();
+    bench.write("bad.xml", BOUNCE.replace("0,5", "-1").replace("F32=\"2\"", "F32=\"2.000,5\""));
+    let outcome = bench.polyscene(&["check", "bad.xml"]);
+    assert_eq!(outcome.code, 1, "{}", outcome.stderr);
+    let lines: Vec<&str> = outcome.stdout.lines().collect();
+    assert_eq!(lines.len(), 2, "{}", outcome.stdout);
+    // In the order of the file: the weight stands before the radius.
+    assert!(lines[0].starts_with("bad.xml:17:") && lines[0].contains(": error: "), "{}", lines[0]);
+    assert!(lines[1].starts_with("bad.xml:19:") && lines[1].contains(": error: "), "{}", lines[1]);
+    assert!(lines[1].contains("(/PolyPhysicsXml/Primitives/SoftObject[7]/Sphere"), "{}", lines[1]);
+}
+
+#[test]
+fn geometry_at_the_start_is_checked_too() {
+    let bench = Bench::new();
+    bench.write("low.xml", BOUNCE.replace(r#"X="5" Y="5""#, r#"X="5" Y="0,25""#));
+    bench.write("far.xml", BOUNCE.replace(r#"X="5" Y="5""#, r#"X="5" Y="50""#));
+    let outcome = bench.polyscene(&["check", "low.xml", "far.xml"]);
+    assert_eq!(outcome.code, 0, "warnings are allowed: {}", outcome.stderr);
+    let lines: Vec<&str> = outcome.stdout.lines().collect();
+    assert_eq!(lines.len(), 2, "{}", outcome.stdout);
+    for (line, file, word) in [(lines[0], "low.xml:", "overlap"), (lines[1], "far.xml:", "outside")] {
+        assert!(line.starts_with(file) && line.contains(": warning: ") && line.contains(word), "{line}");
+        assert!(line[file.len()..].starts_with(|c: char| c.is_ascii_digit()), "no place in {line}");
+    }
+}
+
+#[test]
+fn several_files_share_one_verdict() {
+    let bench = Bench::with_scene(BOUNCE);
+    bench.write("empty.xml", "");
+    let outcome = bench.polyscene(&["check", "scene.xml", "empty.xml", "missing.xml"]);
+    assert_eq!(outcome.code, 1);
+    let lines: Vec<&str> = outcome.stdout.lines().collect();
+    assert_eq!(lines.len(), 2, "{}", outcome.stdout);
+    assert!(lines[0].starts_with("empty.xml:1:1: error: "), "{}", lines[0]);
+    assert!(lines[1].starts_with("missing.xml: error: "), "{}", lines[1]);
+    assert!(outcome.stderr.contains("3 files, 2 errors, 0 warnings"), "{}", outcome.stderr);
+}
+
+#[test]
+fn standard_input_is_a_file_too() {
+    let bench = Bench::new();
+    let mut child = bench
+        .command(&["check", "-"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    child.stdin.take().expect("a pipe").write_all(b"<nonsense/>").expect("the program reads");
+    let outcome = outcome(child.wait_with_output().expect("the program ends"));
+    assert_eq!(outcome.code, 1);
+    assert!(outcome.stdout.starts_with("<stdin>:1:1: error: "), "{}", outcome.stdout);
+}
+
+#[test]
+fn the_scenes_that_come_with_the_program_are_sound() {
+    let files = scene_files(&scenes_folder());
+    assert!(files.len() >= 6, "only {} scenes", files.len());
+    let names: Vec<&str> = files.iter().map(|file| file.to_str().expect("UTF-8 paths")).collect();
+    let outcome = Bench::new().polyscene(&[&["check"], &names[..]].concat());
+    assert_eq!((outcome.code, outcome.stdout.as_str()), (0, ""), "{}", outcome.stderr);
+}
