@@ -47,7 +47,7 @@ impl Document {
             let message = format!("the file is larger than {} MiB", MAX_FILE_BYTES / (1024 * 1024));
             return Self::broken(&[], unreadable(message, "divide the scene"));
         }
-        let decoded = match encoding::decode(bytes.to_vec()) {
+        let decoded = match encoding::decode(bytes) {
             Ok(decoded) => decoded,
             Err(fault) => {
                 let position = Some(position_in(&fault.before, fault.before.len()));
@@ -70,10 +70,8 @@ impl Document {
 
     /// Reads a file. A file that can't be read gives a diagnostic without a position.
     pub fn open(path: &Path) -> Self {
-        let mut bytes = Vec::new();
-        let read = File::open(path).and_then(|file| file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes));
-        match read {
-            Ok(_) => Self::from_bytes(&bytes),
+        match read_file(path) {
+            Ok(bytes) => Self::from_bytes(&bytes),
             Err(err) => Self::broken(&[], unreadable(format!("the file cannot be read: {err}"), "")),
         }
     }
@@ -181,6 +179,13 @@ impl Document {
             index: OnceLock::new(),
         }
     }
+}
+
+/// A file's bytes, one more than the limit at most.
+fn read_file(path: &Path) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
 }
 
 /// What is wrong with a file that could not be read.

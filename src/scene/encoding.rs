@@ -50,7 +50,7 @@ const UTF16_LE_BOM: &[u8] = b"\xFF\xFE";
 const UTF16_BE_BOM: &[u8] = b"\xFE\xFF";
 
 /// Decodes a file. What it accepts, [`encode`] turns back into the same bytes.
-pub(super) fn decode(bytes: Vec<u8>) -> Result<Decoded, DecodeFault> {
+pub(super) fn decode(bytes: &[u8]) -> Result<Decoded, DecodeFault> {
     if bytes.starts_with(b"\xFF\xFE\0\0") || bytes.starts_with(b"\0\0\xFE\xFF") {
         return Err(DecodeFault::at_start("the file is in UTF-32".into(), "save it as UTF-8"));
     }
@@ -60,14 +60,14 @@ pub(super) fn decode(bytes: Vec<u8>) -> Result<Decoded, DecodeFault> {
         .or_else(|| by_mark(UTF16_BE_BOM, Form::Utf16Be));
     let (skip, form) = match marked {
         Some(found) => found,
-        None => (0, form_without_mark(&bytes)?),
+        None => (0, form_without_mark(bytes)?),
     };
     let encoding = Encoding { bom: skip > 0, form };
     let text = match form {
-        Form::Utf8 => decode_utf8(bytes, skip)?,
+        Form::Utf8 => decode_utf8(&bytes[skip..])?,
         Form::Utf16Le => decode_utf16(&bytes[skip..], u16::from_le_bytes)?,
         Form::Utf16Be => decode_utf16(&bytes[skip..], u16::from_be_bytes)?,
-        Form::Legacy(legacy) => decode_legacy(&bytes, legacy)?,
+        Form::Legacy(legacy) => decode_legacy(bytes, legacy)?,
     };
     let contradiction = declared(&text).filter(|label| !agrees(label, form)).map(|label| {
         format!("the declaration says {}, but the file is in {}", super::shown(label), form.name())
@@ -146,11 +146,9 @@ fn agrees(label: &str, form: Form) -> bool {
     }
 }
 
-fn decode_utf8(mut bytes: Vec<u8>, skip: usize) -> Result<String, DecodeFault> {
-    bytes.drain(..skip);
-    String::from_utf8(bytes).map_err(|err| {
-        let valid = err.utf8_error().valid_up_to();
-        let bytes = err.into_bytes();
+fn decode_utf8(bytes: &[u8]) -> Result<String, DecodeFault> {
+    str::from_utf8(bytes).map(str::to_owned).map_err(|err| {
+        let valid = err.valid_up_to();
         let bad = bytes.get(valid).copied().unwrap_or(0);
         DecodeFault {
             before: String::from_utf8_lossy(&bytes[..valid]).into_owned(),

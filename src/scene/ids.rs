@@ -1,6 +1,6 @@
 //! UserIDs: labels that files repeat or leave out, made into labels that are unique.
 
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::{FxBuildHasher, FxHashMap, FxHashSet};
 
 /// Largest id that is given: the predecessor's tools read 32 bits.
 const MAX_GIVEN: i64 = i32::MAX as i64;
@@ -25,7 +25,6 @@ impl Label {
 #[derive(Debug)]
 pub(super) struct Ids {
     taken: FxHashSet<i64>,
-    repeats: FxHashMap<i64, u32>,
     /// Where to look for the next id to give.
     next: i64,
 }
@@ -35,7 +34,7 @@ impl Ids {
         let taken = ids.collect::<FxHashSet<_>>();
         let largest = taken.iter().copied().max().unwrap_or(0).max(0);
         let next = if largest < MAX_GIVEN { largest + 1 } else { 1 };
-        Self { taken, repeats: FxHashMap::default(), next }
+        Self { taken, next }
     }
 
     /// An id that nothing has: the one after the largest, or the smallest free one if that is too large.
@@ -46,16 +45,32 @@ impl Ids {
         self.next
     }
 
-    /// The label of the next in file order, with a given id if it has none.
-    pub fn label(&mut self, id: Option<i64>) -> Label {
-        let id = id.unwrap_or_else(|| self.fresh());
-        let repeat = self.repeats.entry(id).or_insert(0);
-        *repeat += 1;
-        Label { id, repeat: *repeat }
-    }
-
     /// The id itself, or a fresh one if something has it.
     pub fn take(&mut self, id: i64) -> i64 {
         if self.taken.insert(id) { id } else { self.fresh() }
+    }
+}
+
+/// Labels for the elements of a list, in file order.
+#[derive(Debug)]
+pub(super) struct Labels {
+    repeats: FxHashMap<i64, u32>,
+    /// Only if there are elements without an id.
+    ids: Option<Ids>,
+}
+
+impl Labels {
+    pub fn of(ids: impl ExactSizeIterator<Item = Option<i64>> + Clone) -> Self {
+        let repeats = FxHashMap::with_capacity_and_hasher(ids.len(), FxBuildHasher);
+        let ids = ids.clone().any(|id| id.is_none()).then(|| Ids::new(ids.flatten()));
+        Self { repeats, ids }
+    }
+
+    /// The label of the next element, with a given id if it has none.
+    pub fn next(&mut self, id: Option<i64>) -> Label {
+        let id = id.or_else(|| self.ids.as_mut().map(Ids::fresh)).unwrap_or_default();
+        let repeat = self.repeats.entry(id).or_insert(0);
+        *repeat += 1;
+        Label { id, repeat: *repeat }
     }
 }

@@ -60,11 +60,14 @@ struct Parser<'a> {
     has_root: bool,
     open: Vec<Open<'a>>,
     top: Vec<Child>,
+    /// Of the attributes of one tag.
+    names: Vec<&'a str>,
 }
 
 impl<'a> Parser<'a> {
     fn new(source: &'a str, keys: &'a Keys, whole: bool) -> Self {
-        Self { source, keys, whole, has_root: false, open: Vec::new(), top: Vec::new() }
+        let (open, top, names) = Default::default();
+        Self { source, keys, whole, has_root: false, open, top, names }
     }
 
     fn run(&mut self) -> Result<(), ParseFault> {
@@ -79,7 +82,12 @@ impl<'a> Parser<'a> {
                 Ok(event) => self.event(&event, start, end)?,
                 Err(err) => {
                     let at = reader.error_position() as usize;
-                    return Err(self.fault(at, &err.to_string(), "the file is not well-formed XML"));
+                    let message = match err {
+                        quick_xml::Error::IllFormed(err) => err.to_string(),
+                        quick_xml::Error::Syntax(err) => err.to_string(),
+                        err => err.to_string(),
+                    };
+                    return Err(self.fault(at, &message, "the file is not well-formed XML"));
                 }
             }
         }
@@ -150,8 +158,9 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    fn check_attributes(&self, at: usize, tag: &str) -> Result<(), ParseFault> {
-        let mut names: Vec<&str> = Vec::new();
+    fn check_attributes(&mut self, at: usize, tag: &'a str) -> Result<(), ParseFault> {
+        let mut names = std::mem::take(&mut self.names);
+        names.clear();
         for attr in tag::attributes(tag) {
             let attr = attr.map_err(|fault| self.fault(at + fault.at, fault.message, ""))?;
             let here = at + attr.whole.start + 1;
@@ -165,13 +174,12 @@ impl<'a> Parser<'a> {
             names.push(attr.name);
         }
         names.sort_unstable();
-        match names.windows(2).find(|pair| pair[0] == pair[1]) {
-            Some(pair) => {
-                let message = format!("the attribute {} appears twice", shown(pair[0]));
-                Err(self.fault(at, &message, "remove one of them"))
-            }
-            None => Ok(()),
+        if let Some(pair) = names.windows(2).find(|pair| pair[0] == pair[1]) {
+            let message = format!("the attribute {} appears twice", shown(pair[0]));
+            return Err(self.fault(at, &message, "remove one of them"));
         }
+        self.names = names;
+        Ok(())
     }
 
     fn end(&mut self, close: Text) {
@@ -220,7 +228,7 @@ impl<'a> Parser<'a> {
             if !name.is_some_and(is_known_reference) {
                 let message = match name {
                     Some(name) => format!("the entity &{}; does not exist", shown(name)),
-                    None => "a & starts no reference".to_owned(),
+                    None => "a & stands alone".to_owned(),
                 };
                 return Err(self.fault(at + offset, &message, "write & as &amp;"));
             }
@@ -279,7 +287,11 @@ fn is_known_reference(name: &str) -> bool {
 }
 
 fn check_characters(source: &str) -> Result<(), ParseFault> {
-    let Some((at, c)) = source.char_indices().find(|&(_, c)| !is_xml_char(c)) else { return Ok(()) };
+    let is_control = |b: u8| b < b' ' && !matches!(b, b'\t' | b'\n' | b'\r');
+    let control = source.bytes().position(is_control);
+    let others = source.find(['\u{FFFE}', '\u{FFFF}']);
+    let Some(at) = control.into_iter().chain(others).min() else { return Ok(()) };
+    let c = source[at..].chars().next().unwrap_or_default();
     Err(ParseFault {
         at,
         path: String::new(),

@@ -38,7 +38,7 @@ impl Range {
             Self::Positive => (value > 0.0, "must be greater than 0".into()),
             Self::NotNegative => (value >= 0.0, "must not be negative".into()),
             Self::Between(low, high) => {
-                ((low..=high).contains(&value), format!("must lie between {low} and {high}"))
+                ((low..=high).contains(&value), format!("must lie between {low:?} and {high:?}"))
             }
         };
         (!fine).then_some(must)

@@ -39,6 +39,12 @@ mod render_pictures;
 mod render_verb;
 // Edits: the bytes each changes, what it refuses, keys.
 mod scene_edit;
+// Files: every sample, every encoding, what saving does to the disk.
+mod scene_files;
+// One small file per rule of the reader, and what is said about each.
+mod scene_invalid;
+// Any bytes, any edits, any numbers.
+mod scene_properties;
 // The reader: values, defaults, labels, places.
 mod scene_read;
 // Chains of impacts with known outcomes: head-on pairs, Newton's cradle, counting π.

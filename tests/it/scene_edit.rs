@@ -407,7 +407,7 @@ fn refused_edits_say_why() {
         (Edit::MapSize(DVec3::ZERO), "the map's size x must be greater than 0; 0 was given"),
         (
             Edit::Params(SimParams { rest_speed: 2.0, ..SimParams::default() }),
-            "Rest speed must lie between 0 and 1; 2 was given",
+            "Rest speed must lie between 0.0 and 1.0; 2 was given",
         ),
         (
             Edit::AddBody(Box::new(Body { bounce: f64::INFINITY, ..new_ball(1) })),

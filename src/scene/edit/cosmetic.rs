@@ -33,10 +33,10 @@ pub(super) fn set(pen: Pen<'_>, el: &Arc<Element>, lead: &str, name: &str, value
         None => tag::without(&old, name),
     };
     let children = if tag::attributes(&new).next().is_some() {
-        el.children.splice(at..at + 1, [Child::Raw(new.into())])
+        el.children.splice(at..at + 1, vec![Child::Raw(new.into())])
     } else {
         let (start, end) = unit(&el.children, at, source);
-        el.children.splice(start..end, [])
+        el.children.splice(start..end, Vec::new())
     };
     Ok(Arc::new(el.with_children(children)))
 }

@@ -4,6 +4,7 @@ mod body;
 mod compose;
 mod cosmetic;
 mod force;
+mod patch;
 mod pen;
 mod settings;
 mod structure;

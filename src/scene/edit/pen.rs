@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::EditError;
 use super::style::{Style, is_open, lead_at, raw};
 use crate::scene::source::Source;
-use crate::scene::tree::{Child, Children, Element, RawKind, View, raw_kind, tag};
+use crate::scene::tree::{Child, Children, Element, RawKind, Splice, View, raw_kind, tag};
 use crate::scene::{NumberStyle, number, parse, rules};
 
 /// Writes into one document, in its style.
@@ -110,7 +110,16 @@ impl<'a> Pen<'a> {
         if Arc::ptr_eq(&new, old) {
             return Ok(el.clone());
         }
-        Ok(Arc::new(el.with_children(el.children.splice(at..at + 1, [Child::Element(new)]))))
+        Ok(Arc::new(el.with_children(el.children.splice(at..at + 1, vec![Child::Element(new)]))))
+    }
+
+    /// Replaces ranges of children, which are in order; the very same element if there are none.
+    pub fn with_splices(self, el: &Arc<Element>, splices: impl Iterator<Item = Splice>) -> Arc<Element> {
+        let splices = splices.collect::<Vec<_>>();
+        if splices.is_empty() {
+            return el.clone();
+        }
+        Arc::new(el.with_children(el.children.splice_all(splices)))
     }
 
     /// Adds the new child `name` that `xml` writes, given the white space before it.
@@ -197,7 +206,7 @@ impl<'a> Pen<'a> {
     /// The element without a child, the white space before it and the comments behind it on its line.
     pub fn without_child(self, el: &Element, at: usize) -> Element {
         let (start, end) = unit(&el.children, at, &self.source.text);
-        el.with_children(el.children.splice(start..end, []))
+        el.with_children(el.children.splice(start..end, Vec::new()))
     }
 
     /// `<Name A="1" B="2" />`

@@ -7,7 +7,7 @@ use rustc_hash::FxHashSet;
 
 use super::body::check_shape;
 use super::force::check_kind;
-use super::pen::{Pen, Spot, check, check_text, check_vector};
+use super::pen::{Pen, Spot, check, check_text, check_vector, unit};
 use super::style::lead_at;
 use super::work::Work;
 use super::{EditError, compose};
@@ -15,6 +15,9 @@ use crate::scene::locate::List;
 use crate::scene::rules::Range;
 use crate::scene::tree::{Child, Element};
 use crate::scene::{Body, Force, Motion, NodeKey, number};
+
+/// Children of a list, by index, each with its place in the keys of the edit.
+type Places = (List, Vec<(usize, usize)>);
 
 impl Work<'_> {
     pub fn add_body(&mut self, body: &Body) -> Result<(), EditError> {
@@ -51,8 +54,13 @@ impl Work<'_> {
     }
 
     pub fn delete(&mut self, keys: &[NodeKey]) -> Result<(), EditError> {
-        for (list, at) in self.last_first(keys)? {
-            self.section(list.path(), |pen, el, _| Ok(Arc::new(pen.without_child(el, at))))?;
+        let source = self.pen.source;
+        for (list, places) in self.places(keys)? {
+            self.section(list.path(), |pen, el, _| {
+                let unit = |at| unit(&el.children, at, &source.text);
+                let ranges = places.iter().map(|&(at, _)| unit(at));
+                Ok(pen.with_splices(el, ranges.map(|(start, end)| (start..end, Vec::new()))))
+            })?;
         }
         self.forget_places();
         Ok(())
@@ -60,26 +68,26 @@ impl Work<'_> {
 
     pub fn duplicate(&mut self, keys: &[NodeKey], offset: DVec3) -> Result<(), EditError> {
         check_vector("the offset", offset, Range::Any)?;
-        let places = self.last_first(keys)?;
-        // Ids are given in file order, though the copies are made from the end.
-        let fresh = places.iter().rev().map(|&(list, _)| self.ids(list).fresh()).collect::<Vec<_>>();
         let mut added = Vec::new();
-        for (&(list, at), id) in places.iter().zip(fresh.into_iter().rev()) {
-            let source = self.pen.source;
-            self.section(list.path(), |pen, el, lead| {
-                let Some(original) = el.children.get(at).and_then(Child::element) else {
-                    return Err(EditError::Gone);
-                };
-                let item_lead = lead_at(&el.children, at, &source.text);
-                let copy = Arc::new(pen.copy(original));
-                let copy = pen.with_text(&copy, "UserID", &id.to_string());
-                let copy = moved(pen, &copy, &item_lead, offset)?;
-                added.push(copy.key);
-                let end = pen.line_end(el, at);
-                Ok(Arc::new(pen.with_inserted(el, lead, end, item_lead, vec![Child::Element(copy)])))
+        for (list, places) in self.places(keys)? {
+            let ids = places.iter().map(|_| self.ids(list).fresh()).collect::<Vec<_>>();
+            self.section(list.path(), |pen, el, _| {
+                let mut splices = Vec::with_capacity(places.len());
+                for (&(at, order), id) in places.iter().zip(ids) {
+                    let original = el.children.get(at).and_then(Child::element).ok_or(EditError::Gone)?;
+                    let lead = lead_at(&el.children, at, &pen.source.text);
+                    let copy = pen.with_text(&Arc::new(pen.copy(original)), "UserID", &id.to_string());
+                    let copy = moved(pen, &copy, &lead, offset)?;
+                    added.push((order, copy.key));
+                    let end = pen.line_end(el, at);
+                    let space = (!lead.is_empty()).then(|| Child::Raw(lead.into()));
+                    splices.push((end..end, space.into_iter().chain([Child::Element(copy)]).collect()));
+                }
+                Ok(pen.with_splices(el, splices.into_iter()))
             })?;
         }
-        self.added.extend(added.into_iter().rev());
+        added.sort_unstable();
+        self.added.extend(added.into_iter().map(|(_, key)| key));
         self.forget_places();
         Ok(())
     }
@@ -88,23 +96,31 @@ impl Work<'_> {
     pub fn make_ids_unique(&mut self) -> Result<(), EditError> {
         for list in [List::Bodies, List::Forces] {
             let mut seen = FxHashSet::default();
+            let mut changes = Vec::new();
             for item in self.items(list) {
-                let Some(id) = self.written_id(&item) else { continue };
-                if !seen.insert(id) {
-                    let fresh = self.ids(list).fresh().to_string();
-                    self.item(list, item.key, |pen, el, _| Ok(pen.with_text(el, "UserID", &fresh)))?;
+                if self.written_id(&item).is_some_and(|id| !seen.insert(id)) {
+                    changes.push((item.key, self.ids(list).fresh().to_string()));
                 }
+            }
+            if !changes.is_empty() {
+                let changes = changes.iter().map(|(key, id)| (*key, id)).collect::<Vec<_>>();
+                self.items_changed(list, &changes, |pen, el, _, id| Ok(pen.with_text(el, "UserID", id)))?;
             }
         }
         Ok(())
     }
 
-    /// Where elements stand, each once, from the end of each list, so that changes leave the rest in place.
-    fn last_first(&mut self, keys: &[NodeKey]) -> Result<Vec<(List, usize)>, EditError> {
-        let places = keys.iter().map(|&key| self.find(key).ok_or(EditError::Gone));
-        let mut places = places.collect::<Result<Vec<_>, _>>()?;
-        places.sort_by_key(|&(list, at)| (list as usize, std::cmp::Reverse(at)));
-        places.dedup();
+    /// Where elements stand in their lists, in file order, each once with its place in `keys`.
+    fn places(&mut self, keys: &[NodeKey]) -> Result<[Places; 2], EditError> {
+        let mut places = [(List::Bodies, Vec::new()), (List::Forces, Vec::new())];
+        for (order, &key) in keys.iter().enumerate() {
+            let (list, at) = self.find(key).ok_or(EditError::Gone)?;
+            places[list as usize].1.push((at, order));
+        }
+        for (_, places) in &mut places {
+            places.sort_unstable();
+            places.dedup_by_key(|place| place.0);
+        }
         Ok(places)
     }
 }

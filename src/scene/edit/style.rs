@@ -29,8 +29,11 @@ impl Style {
         let mut self_close = " />";
         find(&mut |el| {
             let tag = el.tag();
-            self_close = if tag.ends_with(" />") { " />" } else { "/>" };
-            tag.ends_with("/>")
+            let is_empty = tag.ends_with("/>");
+            if is_empty && !tag.ends_with(" />") {
+                self_close = "/>";
+            }
+            is_empty
         });
         let mut quote = '"';
         find(&mut |el| match el.attributes().next() {

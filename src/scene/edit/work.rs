@@ -2,13 +2,15 @@
 
 use std::sync::{Arc, OnceLock};
 
+use super::patch::{self, Changes};
 use super::pen::{Changed, Pen, Spot, check, check_vector};
+use super::style::lead_at;
 use super::{Edit, EditError, Edited, body, force, settings};
 use crate::scene::document::Content;
 use crate::scene::ids::Ids;
 use crate::scene::locate::{self, Index, List};
 use crate::scene::rules::{self, Range};
-use crate::scene::tree::{Child, Children, Element, tag};
+use crate::scene::tree::{Child, Children, Element, View, tag};
 use crate::scene::{Document, NodeKey, number};
 
 /// Children of the root and of `Simulation`, in the order in which they are written.
@@ -22,6 +24,8 @@ pub(super) struct Work<'d> {
     index: Option<Arc<Index>>,
     ids: [Option<Ids>; 2],
     pub added: Vec<NodeKey>,
+    /// All that the edit did, as long as it only changed bodies.
+    changes: Option<Changes>,
 }
 
 impl<'d> Work<'d> {
@@ -39,7 +43,8 @@ impl<'d> Work<'d> {
             return Err(EditError::Invalid("the file is no scene, so it cannot be edited as one".into()));
         }
         let index = document.index.get().cloned();
-        Ok(Self { document, pen, top: top.clone(), index, ids: [None, None], added: Vec::new() })
+        let (top, changes) = (top.clone(), Some(Changes::new()));
+        Ok(Self { document, pen, top, index, ids: [None, None], added: Vec::new(), changes })
     }
 
     pub fn apply(&mut self, edit: &Edit) -> Result<(), EditError> {
@@ -66,19 +71,32 @@ impl<'d> Work<'d> {
                     settings::set_params(pen, el, lead, &SECTIONS, params)
                 })
             }
-            Edit::Body { key, change } => {
-                self.item(List::Bodies, *key, |pen, el, lead| body::change(pen, el, lead, change))
-            }
-            Edit::Force { key, change } => {
-                self.item(List::Forces, *key, |pen, el, lead| force::change(pen, el, lead, change))
-            }
+            Edit::Body { key, change } => self.items_changed(List::Bodies, &[(*key, change)], body::change),
+            Edit::Force { key, change } => self.items_changed(List::Forces, &[(*key, change)], force::change),
             Edit::AddBody(body) => self.add_body(body),
             Edit::AddForce(force) => self.add_force(force),
             Edit::Duplicate { keys, offset } => self.duplicate(keys, *offset),
             Edit::Delete { keys } => self.delete(keys),
             Edit::MakeIdsUnique => self.make_ids_unique(),
-            Edit::All(edits) => edits.iter().try_for_each(|edit| self.apply(edit)),
+            Edit::All(edits) => self.apply_all(edits),
         }
+    }
+
+    /// Runs of changes of bodies are made together, so that many bodies move as quickly as one.
+    fn apply_all(&mut self, edits: &[Edit]) -> Result<(), EditError> {
+        let body_change = |edit: &'_ Edit| matches!(edit, Edit::Body { .. });
+        for run in edits.chunk_by(|a, b| body_change(a) && body_change(b)) {
+            if run.len() == 1 || !body_change(&run[0]) {
+                run.iter().try_for_each(|edit| self.apply(edit))?;
+                continue;
+            }
+            let changes = run.iter().filter_map(|edit| match edit {
+                Edit::Body { key, change } => Some((*key, change)),
+                _ => None,
+            });
+            self.items_changed(List::Bodies, &changes.collect::<Vec<_>>(), body::change)?;
+        }
+        Ok(())
     }
 
     /// The document after the edit, its version raised or lowered if its use of 1.1 began or ended.
@@ -87,6 +105,11 @@ impl<'d> Work<'d> {
             return Ok(Edited { document: self.document.clone(), added: self.added });
         }
         let mut document = self.make();
+        if let Some(changes) = &self.changes
+            && let Some(meaning) = patch::patched(self.pen, self.document.meaning(), changes)
+        {
+            document.meaning = OnceLock::from(Arc::new(meaning));
+        }
         let (before, now) = (&self.document.meaning().features, &document.meaning().features);
         let version = if now.exceeds(before) {
             Some("1.1")
@@ -109,34 +132,55 @@ impl<'d> Work<'d> {
         path: &[&str],
         change: impl FnOnce(Pen<'_>, &Arc<Element>, &str) -> Changed,
     ) -> Result<(), EditError> {
+        self.changes = None;
         let source = &self.pen.source.text;
         let at = self.top.iter().position(|child| child.element().is_some()).ok_or(EditError::Gone)?;
         let root = self.top.get(at).and_then(Child::element).ok_or(EditError::Gone)?;
         debug_assert_eq!(tag::name(root.open.get(source)), "PolyPhysicsXml");
         let new = descend(self.pen, root, &self.pen.style.newline, path, change)?;
         if !Arc::ptr_eq(&new, root) {
-            self.top = self.top.splice(at..at + 1, [Child::Element(new)]);
+            self.top = self.top.splice(at..at + 1, vec![Child::Element(new)]);
         }
         Ok(())
     }
 
-    /// Changes one body or force.
-    pub fn item(
+    /// Changes bodies or forces, in the order of the changes.
+    pub fn items_changed<C>(
         &mut self,
         list: List,
-        key: NodeKey,
-        change: impl FnOnce(Pen<'_>, &Arc<Element>, &str) -> Changed,
+        changes: &[(NodeKey, &C)],
+        change: impl Fn(Pen<'_>, &Arc<Element>, &str, &C) -> Changed,
     ) -> Result<(), EditError> {
-        let at = self.position(list, key)?;
-        self.section(list.path(), |pen, el, _| pen.with_child(el, at, |item, lead| change(pen, item, lead)))
-    }
-
-    /// The place of a body or force among its list's children.
-    fn position(&mut self, list: List, key: NodeKey) -> Result<usize, EditError> {
-        match self.find(key) {
-            Some((found, at)) if found == list => Ok(at),
-            _ => Err(EditError::Gone),
+        let mut places = Vec::with_capacity(changes.len());
+        for (key, _) in changes {
+            match self.find(*key) {
+                Some((found, at)) if found == list => places.push(at),
+                _ => return Err(EditError::Gone),
+            }
         }
+        let before = self.changes.take().filter(|_| list == List::Bodies);
+        let mut changed = Changes::new();
+        self.section(list.path(), |pen, el, _| {
+            for (at, (_, to)) in places.into_iter().zip(changes) {
+                let old = el.children.get(at).and_then(Child::element).ok_or(EditError::Gone)?;
+                let lead = lead_at(&el.children, at, &pen.source.text);
+                let new = change(pen, changed.get(&at).map_or(old, |(_, new)| new), &lead, to)?;
+                if !Arc::ptr_eq(&new, old) {
+                    changed.insert(at, (old.clone(), new));
+                }
+            }
+            let splices =
+                changed.iter().map(|(&at, (_, new))| (at..at + 1, vec![Child::Element(new.clone())]));
+            Ok(pen.with_splices(el, splices))
+        })?;
+        self.changes = before.map(|mut all| {
+            for (at, (old, new)) in changed {
+                let old = all.remove(&at).map_or(old, |(old, _)| old);
+                all.insert(at, (old, new));
+            }
+            all
+        });
+        Ok(())
     }
 
     pub fn find(&mut self, key: NodeKey) -> Option<(List, usize)> {
@@ -154,27 +198,25 @@ impl<'d> Work<'d> {
     pub fn items(&self, list: List) -> Vec<Arc<Element>> {
         let root = locate::root(&self.top, &self.pen.source.text);
         let el = root.and_then(|root| list.find(root));
-        el.into_iter().flat_map(|el| el.elements()).map(|item| item.node.clone()).collect()
+        el.into_iter().flat_map(View::elements).map(|item| item.node.clone()).collect()
     }
 
     /// The ids in use, including those that the reader gives to elements without.
     pub fn ids(&mut self, list: List) -> &mut Ids {
-        let fresh = || {
-            let scene = self.document.scene();
-            let given: Vec<i64> = match list {
-                List::Bodies => scene.map(|scene| scene.bodies.iter().map(|body| body.id).collect()),
-                List::Forces => scene.map(|scene| scene.forces.iter().map(|force| force.id).collect()),
-            }
-            .unwrap_or_default();
-            let written = self.items(list);
-            Ids::new(written.iter().filter_map(|el| self.written_id(el)).chain(given))
-        };
         let slot = list as usize;
-        if self.ids[slot].is_none() {
-            let ids = fresh();
-            self.ids[slot] = Some(ids);
+        let ids = self.ids[slot].take().unwrap_or_else(|| self.all_ids(list));
+        self.ids[slot].insert(ids)
+    }
+
+    fn all_ids(&self, list: List) -> Ids {
+        let scene = self.document.scene();
+        let given: Vec<i64> = match list {
+            List::Bodies => scene.map(|scene| scene.bodies.iter().map(|body| body.id).collect()),
+            List::Forces => scene.map(|scene| scene.forces.iter().map(|force| force.id).collect()),
         }
-        self.ids[slot].get_or_insert_with(|| Ids::new(std::iter::empty()))
+        .unwrap_or_default();
+        let written = self.items(list);
+        Ids::new(written.iter().filter_map(|el| self.written_id(el)).chain(given))
     }
 
     pub fn written_id(&self, el: &Arc<Element>) -> Option<i64> {

@@ -1,9 +1,11 @@
 //! Bodies: `SoftObject` and `HardObject`.
 
+use std::borrow::Cow;
+
 use glam::DVec3;
 
 use super::cosmetic::Cosmetics;
-use super::feature::FeatureCounts;
+use super::feature::{self, Use};
 use super::log::{Log, place_in};
 use super::shape;
 use crate::scene::rules::Range;
@@ -34,17 +36,12 @@ pub(in crate::scene) const BODY_ORDER: [&str; 14] = [
 pub(in crate::scene) const SHAPES: [&str; 6] = ["Sphere", "Plane", "Box", "Cylinder", "Mesh", "Compound"];
 
 /// Reads a body. What is wrong is reported and takes its default, so that the body can be shown and mended.
-pub(super) fn read<'a>(
-    el: View<'a>,
-    log: &mut Log<'a>,
-    cosmetics: Cosmetics,
-    features: &mut FeatureCounts,
-) -> Body {
+pub(super) fn read<'a>(el: View<'a>, log: &mut Log<'a>, cosmetics: Cosmetics, uses: &mut Vec<Use>) -> Body {
     let dynamic = el.name() == "SoftObject";
     let [translation, rotation, bounce, friction, material, weight, velocity, spin, shapes @ ..] =
         log.children(el, BODY_ORDER);
     for child in [friction, material, spin].into_iter().chain(shapes).flatten() {
-        features.note(child.name(), child.place());
+        feature::note(uses, child.name(), child.place());
     }
     if translation.is_none() {
         let hint = "write <Translation X=\"…\" Y=\"…\" Z=\"…\" />";
@@ -101,7 +98,7 @@ fn read_material<'a>(log: &mut Log<'a>, el: View<'a>) -> Option<String> {
         if text.is_none() {
             log.error(el.place(), "the attribute Text is missing", "write Text=\"…\"");
         }
-        text.map(|text| text.into_owned()).filter(|text| !text.is_empty())
+        text.map(Cow::into_owned).filter(|text| !text.is_empty())
     })
 }
 

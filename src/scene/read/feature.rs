@@ -13,6 +13,14 @@ const NAMES: [&str; 9] = [
     "Solver",
 ];
 
+/// A use of an element of 1.1 and its place.
+pub(super) type Use = (&'static str, Option<u32>);
+
+/// Adds an element to the uses if it is one of 1.1.
+pub(super) fn note(uses: &mut Vec<Use>, name: &str, at: Option<u32>) {
+    uses.extend(NAMES.iter().find(|&&candidate| candidate == name).map(|&name| (name, at)));
+}
+
 /// How often a document uses each element of 1.1, and where first.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::scene) struct FeatureCounts {
@@ -21,22 +29,13 @@ pub(in crate::scene) struct FeatureCounts {
 }
 
 impl FeatureCounts {
-    /// Counts an element if it is one of 1.1.
-    pub fn note(&mut self, name: &str, at: Option<u32>) {
+    /// Counts an element of 1.1.
+    pub fn add(&mut self, (name, at): Use) {
         if let Some(slot) = NAMES.iter().position(|&candidate| candidate == name) {
             if self.counts[slot] == 0 {
                 self.first[slot] = at;
             }
             self.counts[slot] += 1;
-        }
-    }
-
-    pub fn add(&mut self, other: &Self) {
-        for slot in 0..NAMES.len() {
-            if self.counts[slot] == 0 {
-                self.first[slot] = other.first[slot];
-            }
-            self.counts[slot] += other.counts[slot];
         }
     }
 

@@ -1,6 +1,8 @@
 //! What one body or force element means by itself, kept with the element.
 
-use super::feature::FeatureCounts;
+use std::sync::Arc;
+
+use super::feature::{self, Use};
 use super::log::{Log, Problem};
 use super::{body, cosmetic, force};
 use crate::scene::tree::View;
@@ -13,7 +15,8 @@ pub(in crate::scene) struct ItemReading {
     pub id: Option<i64>,
     /// Paths begin below the element.
     pub problems: Vec<Problem>,
-    pub features: FeatureCounts,
+    /// Elements of format 1.1.
+    pub uses: Vec<Use>,
 }
 
 #[derive(Clone, Debug)]
@@ -25,10 +28,23 @@ pub(in crate::scene) enum Item {
 }
 
 impl ItemReading {
+    /// What a child of `Primitives` means, read if it has not been.
+    pub fn kept_body(el: View<'_>) -> &Arc<Self> {
+        el.node.reading.get_or_init(|| Arc::new(Self::of_body(el)))
+    }
+
+    /// The body, if the element is one.
+    pub fn body(&self) -> Option<&Body> {
+        match &self.item {
+            Item::Body(body) => Some(body),
+            Item::Force(_) | Item::Unknown => None,
+        }
+    }
+
     /// Reads a child of `Primitives`.
     pub fn of_body(el: View<'_>) -> Self {
-        Self::of(el, &body::BODIES, |el, log, cosmetics, features| {
-            Item::Body(body::read(el, log, cosmetics, features))
+        Self::of(el, &body::BODIES, |el, log, cosmetics, uses| {
+            Item::Body(body::read(el, log, cosmetics, uses))
         })
     }
 
@@ -40,19 +56,19 @@ impl ItemReading {
     fn of<'a>(
         el: View<'a>,
         known: &[&str],
-        read: impl FnOnce(View<'a>, &mut Log<'a>, cosmetic::Cosmetics, &mut FeatureCounts) -> Item,
+        read: impl FnOnce(View<'a>, &mut Log<'a>, cosmetic::Cosmetics, &mut Vec<Use>) -> Item,
     ) -> Self {
         let mut log = Log::default();
-        let mut features = FeatureCounts::default();
+        let mut uses = Vec::new();
         if !known.contains(&el.name()) {
             log.unknown_element(el, known);
-            return Self { item: Item::Unknown, id: None, problems: log.problems, features };
+            return Self { item: Item::Unknown, id: None, problems: log.problems, uses };
         }
-        features.note(el.name(), el.place());
+        feature::note(&mut uses, el.name(), el.place());
         log.check_attributes(el, &["UserID"]);
         let id = log.user_id(el);
         let cosmetics = cosmetic::read(el, &mut log);
-        let item = read(el, &mut log, cosmetics, &mut features);
-        Self { item, id, problems: log.problems, features }
+        let item = read(el, &mut log, cosmetics, &mut uses);
+        Self { item, id, problems: log.problems, uses }
     }
 }

@@ -101,7 +101,7 @@ impl<'a> Log<'a> {
             return None;
         };
         let at = place_in(el, attr.value.start);
-        let value = el.value(name)?;
+        let value = attr.resolved();
         match number::parse(&value) {
             Ok(number) => match range.refusal(number) {
                 Some(must) => {
@@ -136,10 +136,11 @@ impl<'a> Log<'a> {
 
     /// A whole number used as a label, if there is one.
     pub fn user_id(&mut self, el: View<'a>) -> Option<i64> {
-        let value = el.value("UserID")?;
+        let attr = el.attribute("UserID")?;
+        let value = attr.resolved();
         let id = value.trim_matches(number::is_space).parse().ok();
         if id.is_none() {
-            let at = el.attribute("UserID").and_then(|attr| place_in(el, attr.value.start));
+            let at = place_in(el, attr.value.start);
             let message = format!("UserID=\"{}\" is not a whole number", shown(&value));
             self.error(at, message, "write a number; a name belongs in the properties of the body");
         }

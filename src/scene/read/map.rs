@@ -3,7 +3,7 @@
 use super::log::{Log, place_in};
 use crate::scene::rules::{self, Range};
 use crate::scene::tree::View;
-use crate::scene::{Map, number, shown};
+use crate::scene::{Map, shown};
 
 /// What an unusable size or number of tiles is shown as until it is mended.
 pub(super) const FALLBACK: Map = Map { size: glam::DVec3::splat(10.0), tiles: [10; 3] };
@@ -30,7 +30,7 @@ fn read_tiles<'a>(el: View<'a>, log: &mut Log<'a>) -> Option<[u32; 3]> {
             let value = log.number(el, axis, Range::Any)?;
             let Some(must) = rules::tiles_refusal(value) else { return Some(value as u32) };
             let at = el.attribute(axis).and_then(|attr| place_in(el, attr.value.start));
-            let written = number::format(value, number::NumberStyle::Point);
+            let written = el.value(axis).unwrap_or_default();
             log.error(at, format!("{axis}=\"{}\" {must}", shown(&written)), "");
             None
         });

@@ -6,7 +6,7 @@ use super::feature::FeatureCounts;
 use super::item::{Item, ItemReading};
 use super::log::{Log, Problem, place_in};
 use super::{map, simulation};
-use crate::scene::ids::{Ids, Label};
+use crate::scene::ids::{Label, Labels};
 use crate::scene::rules::MAX_DIAGNOSTICS;
 use crate::scene::source::Source;
 use crate::scene::tree::{Children, View};
@@ -89,7 +89,7 @@ impl Reader {
         scene.time_speed = speed;
         scene.params = params.0;
         if let Some(solver) = params.1 {
-            self.features.note("Solver", solver.place());
+            self.features.add(("Solver", solver.place()));
         }
         if let Some(forces) = forces {
             self.forces(forces, scene);
@@ -107,6 +107,8 @@ impl Reader {
     }
 
     fn bodies(&mut self, el: View<'_>, scene: &mut Scene) {
+        // The other half is white space.
+        scene.bodies.reserve(el.node.children.len() / 2);
         self.list(el, "/PolyPhysicsXml/Primitives", ItemReading::of_body, |item, label| {
             if let Item::Body(body) = item {
                 let (id, label) = (label.id, label.text());
@@ -132,14 +134,14 @@ impl Reader {
             (el, reading)
         });
         let items = items.collect::<Vec<_>>();
-        let mut ids = Ids::new(items.iter().filter_map(|(_, reading)| reading.id));
+        let mut labels = Labels::of(items.iter().map(|(_, reading)| reading.id));
         for (el, reading) in items {
             if matches!(reading.item, Item::Unknown) {
                 self.take(reading.problems.iter().cloned(), path, el);
                 continue;
             }
-            let label = ids.label(reading.id);
-            self.features.add(&reading.features);
+            let label = labels.next(reading.id);
+            reading.uses.iter().for_each(|&used| self.features.add(used));
             let mut log = Log::default();
             self.check_id(&mut log, el, reading, label);
             if !(log.problems.is_empty() && reading.problems.is_empty()) {

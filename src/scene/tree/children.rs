@@ -28,68 +28,113 @@ impl Child {
 
 #[derive(Clone, Debug, Default)]
 pub(in crate::scene) struct Children {
-    chunks: Vec<Arc<[Child]>>,
+    chunks: Vec<Chunk>,
 }
+
+#[derive(Clone, Debug)]
+struct Chunk {
+    /// Index of its first child.
+    start: usize,
+    items: Arc<[Child]>,
+}
+
+impl Chunk {
+    fn end(&self) -> usize {
+        self.start + self.items.len()
+    }
+}
+
+/// A range of children and what replaces it.
+pub(in crate::scene) type Splice = (Range<usize>, Vec<Child>);
 
 impl Children {
     pub fn iter(&self) -> impl DoubleEndedIterator<Item = &Child> {
-        self.chunks.iter().flat_map(|chunk| chunk.iter())
+        self.chunks.iter().flat_map(|chunk| chunk.items.iter())
     }
 
     pub fn len(&self) -> usize {
-        self.chunks.iter().map(|chunk| chunk.len()).sum()
+        self.chunks.last().map_or(0, Chunk::end)
     }
 
     pub fn get(&self, index: usize) -> Option<&Child> {
-        let mut left = index;
-        for chunk in &self.chunks {
-            match chunk.get(left) {
-                Some(child) => return Some(child),
-                None => left -= chunk.len(),
-            }
-        }
-        None
+        let next = self.chunks.partition_point(|chunk| chunk.start <= index);
+        let chunk = self.chunks.get(next.checked_sub(1)?)?;
+        chunk.items.get(index - chunk.start)
     }
 
-    /// The list with the children of `range` replaced.
-    pub fn splice(&self, range: Range<usize>, replacement: impl IntoIterator<Item = Child>) -> Self {
-        let mut chunks = Vec::with_capacity(self.chunks.len() + 1);
-        let mut replacement = Some(replacement);
-        let mut open: Vec<Child> = Vec::new();
-        let mut first = 0;
+    /// The list with the children of one range replaced.
+    pub fn splice(&self, range: Range<usize>, replacement: Vec<Child>) -> Self {
+        self.splice_all(vec![(range, replacement)])
+    }
+
+    /// The list with several ranges replaced, which are in order and do not overlap.
+    pub fn splice_all(&self, splices: Vec<Splice>) -> Self {
+        let mut new = Builder::default();
+        let mut splices = splices.into_iter().peekable();
+        // How far the old list is copied or replaced.
+        let mut done = 0;
         for chunk in &self.chunks {
-            let next = first + chunk.len();
-            let untouched = next < range.start || (replacement.is_none() && first >= range.end);
-            if untouched {
-                close(&mut open, &mut chunks);
-                chunks.push(chunk.clone());
-            } else {
-                let before = range.start.saturating_sub(first).min(chunk.len());
-                let after = range.end.saturating_sub(first).min(chunk.len());
-                open.extend_from_slice(&chunk[..before]);
-                if range.start <= next {
-                    open.extend(replacement.take().into_iter().flatten());
-                }
-                open.extend_from_slice(&chunk[after..]);
+            if done <= chunk.start && splices.peek().is_none_or(|(range, _)| range.start > chunk.end()) {
+                new.share(&chunk.items);
+                done = chunk.end();
+                continue;
             }
-            first = next;
+            while let Some((range, replacement)) = splices.next_if(|(range, _)| range.start <= chunk.end()) {
+                new.copy(chunk, done..range.start);
+                new.open.extend(replacement);
+                done = range.end;
+            }
+            new.copy(chunk, done..chunk.end());
+            done = done.max(chunk.end());
         }
-        open.extend(replacement.into_iter().flatten());
-        close(&mut open, &mut chunks);
-        Self { chunks }
+        for (_, replacement) in splices {
+            new.open.extend(replacement);
+        }
+        new.close();
+        new.list
     }
 }
 
-fn close(open: &mut Vec<Child>, chunks: &mut Vec<Arc<[Child]>>) {
-    chunks.extend(Children::from(std::mem::take(open)).chunks);
+/// A list in the making: chunks, then loose children.
+#[derive(Default)]
+struct Builder {
+    list: Children,
+    open: Vec<Child>,
+}
+
+impl Builder {
+    fn copy(&mut self, chunk: &Chunk, range: Range<usize>) {
+        let from = range.start.max(chunk.start) - chunk.start;
+        let to = range.end.clamp(chunk.start, chunk.end()) - chunk.start;
+        if from < to {
+            self.open.extend_from_slice(&chunk.items[from..to]);
+        }
+    }
+
+    fn share(&mut self, items: &Arc<[Child]>) {
+        self.close();
+        self.push(items.clone());
+    }
+
+    fn close(&mut self) {
+        let open = std::mem::take(&mut self.open);
+        if open.len() > CHUNK * 2 {
+            open.chunks(CHUNK).for_each(|items| self.push(items.into()));
+        } else if !open.is_empty() {
+            self.push(open.into());
+        }
+    }
+
+    fn push(&mut self, items: Arc<[Child]>) {
+        let start = self.list.len();
+        self.list.chunks.push(Chunk { start, items });
+    }
 }
 
 impl From<Vec<Child>> for Children {
-    fn from(children: Vec<Child>) -> Self {
-        if children.len() <= CHUNK * 2 {
-            let chunks = if children.is_empty() { Vec::new() } else { vec![Arc::from(children)] };
-            return Self { chunks };
-        }
-        Self { chunks: children.chunks(CHUNK).map(Arc::from).collect() }
+    fn from(open: Vec<Child>) -> Self {
+        let mut new = Builder { open, ..Builder::default() };
+        new.close();
+        new.list
     }
 }

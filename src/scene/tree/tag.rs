@@ -1,8 +1,7 @@
 //! The attributes inside one raw tag: finding, checking and changing them without touching the rest.
 
+use std::borrow::Cow;
 use std::ops::Range;
-
-use crate::scene::number::is_space;
 
 /// One attribute of a tag, as written.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,6 +15,14 @@ pub(in crate::scene) struct Attr<'a> {
     pub whole: Range<usize>,
 }
 
+impl<'a> Attr<'a> {
+    /// The value with its references resolved; as it stands if one is wrong, which the parser excludes.
+    pub fn resolved(&self) -> Cow<'a, str> {
+        let raw = self.raw;
+        if raw.contains('&') { quick_xml::escape::unescape(raw).unwrap_or(raw.into()) } else { raw.into() }
+    }
+}
+
 /// What is wrong inside a tag, and where in it.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::scene) struct TagFault {
@@ -27,7 +34,8 @@ pub(in crate::scene) struct TagFault {
 pub(in crate::scene) fn name(tag: &str) -> &str {
     let rest = tag.strip_prefix('<').unwrap_or(tag);
     let begins = usize::from(rest.starts_with('?'));
-    let len = rest[begins..].find(|c: char| is_space(c) || matches!(c, '/' | '>' | '?'));
+    let is_end = |b: &u8| matches!(b, b' ' | b'\t' | b'\r' | b'\n' | b'/' | b'>' | b'?');
+    let len = rest.as_bytes()[begins..].iter().position(is_end);
     len.map_or(rest, |len| &rest[..begins + len])
 }
 
@@ -49,12 +57,11 @@ impl<'a> Iterator for Attributes<'a> {
     type Item = Result<Attr<'a>, TagFault>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        let rest = &self.text[self.at..self.end];
-        let spaces = spaces(rest);
-        if spaces == rest.len() {
+        let start = self.after_spaces(self.at);
+        if start == self.end {
             return None;
         }
-        let found = self.read(self.at, self.at + spaces);
+        let found = self.read(self.at, start);
         self.at = found.as_ref().map_or(self.end, |attr| attr.whole.end);
         Some(found)
     }
@@ -66,20 +73,19 @@ impl<'a> Attributes<'a> {
         if before == start {
             return Err(fault(start, "white space is missing before an attribute"));
         }
-        let text = &self.text[..self.end];
-        let len = text[start..].find(|c: char| is_space(c) || c == '=').unwrap_or(text.len() - start);
-        let name_end = start + len;
-        let equals = name_end + spaces(&text[name_end..]);
-        if !text[equals..].starts_with('=') {
+        let bytes = &self.text.as_bytes()[..self.end];
+        let name = bytes[start..].iter().take_while(|&&b| b != b'=' && !is_space(b)).count();
+        let name_end = start + name;
+        let equals = self.after_spaces(name_end);
+        if bytes.get(equals) != Some(&b'=') {
             return Err(fault(start, "an attribute has no value"));
         }
-        let open = equals + 1 + spaces(&text[equals + 1..]);
-        let quote = match text[open..].chars().next() {
-            Some(quote @ ('"' | '\'')) => quote,
-            _ => return Err(fault(open.min(text.len()), "an attribute value is not in quotes")),
+        let open = self.after_spaces(equals + 1);
+        let Some(quote @ (b'"' | b'\'')) = bytes.get(open) else {
+            return Err(fault(open, "an attribute value is not in quotes"));
         };
         let from = open + 1;
-        let Some(len) = text[from..].find(quote) else {
+        let Some(len) = bytes[from..].iter().position(|b| b == quote) else {
             return Err(fault(open, "the quote of an attribute value is not closed"));
         };
         let value = from..from + len;
@@ -90,10 +96,15 @@ impl<'a> Attributes<'a> {
             value,
         })
     }
+
+    fn after_spaces(&self, from: usize) -> usize {
+        let bytes = &self.text.as_bytes()[from..self.end];
+        from + bytes.iter().take_while(|&&b| is_space(b)).count()
+    }
 }
 
-fn spaces(text: &str) -> usize {
-    text.len() - text.trim_start_matches(is_space).len()
+fn is_space(byte: u8) -> bool {
+    matches!(byte, b' ' | b'\t' | b'\r' | b'\n')
 }
 
 /// The named attribute of a tag.

@@ -31,7 +31,7 @@ impl<'a> View<'a> {
 
     /// The value of an attribute, references resolved.
     pub fn value(self, name: &str) -> Option<Cow<'a, str>> {
-        self.attribute(name).map(|attr| resolved(attr.raw))
+        self.attribute(name).map(|attr| attr.resolved())
     }
 
     /// The child elements.
@@ -57,15 +57,6 @@ impl<'a> View<'a> {
     /// Where it is in the source, in bytes.
     pub fn place(self) -> Option<u32> {
         (self.node.at != NO_PLACE).then_some(self.node.at)
-    }
-}
-
-/// A raw text with its references resolved; as it stands if one is wrong, which the parser excludes.
-fn resolved(raw: &str) -> Cow<'_, str> {
-    if raw.contains('&') {
-        quick_xml::escape::unescape(raw).unwrap_or(Cow::Borrowed(raw))
-    } else {
-        raw.into()
     }
 }
 
