@@ -8,7 +8,7 @@ use super::force::{ForceEntry, Law};
 use super::model::{Fixture, FixtureShape, Identity, Model, MoverInfo, Plate};
 use super::plan::plan_of;
 use super::tiles::{Grid, StaticTiles};
-use crate::scene::{Body, Diagnostic, Motion, Scene, Severity, Shape, rotation_matrix};
+use crate::scene::{Body, Diagnostic, ForceKind, Motion, Scene, Severity, Shape, rotation_matrix};
 
 /// Start of one dynamic body.
 #[derive(Clone, Copy, Debug)]
@@ -25,9 +25,10 @@ pub(super) fn compile(scene: &Scene) -> Result<(Model, Vec<Start>), Vec<Diagnost
     let mut movers = Vec::new();
     let mut starts = Vec::new();
     let mut fixtures = Vec::new();
-    let mut problems = Vec::new();
+    let mut problems = check_world(scene);
+    let mut order = 0;
     for (index, body) in bodies.iter().enumerate() {
-        let order = bodies[..index].iter().rev().take_while(|other| other.id == body.id).count() as u32;
+        order = if index > 0 && bodies[index - 1].id == body.id { order + 1 } else { 0 };
         match compile_body(body, order) {
             Ok(Compiled::Mover(mover, start)) => {
                 movers.push(mover);
@@ -45,7 +46,8 @@ pub(super) fn compile(scene: &Scene) -> Result<(Model, Vec<Start>), Vec<Diagnost
         .iter()
         .map(|force| ForceEntry { key: Some(force.key), law: Law::from_kind(&force.kind) })
         .collect();
-    let grid = Grid::new(&scene.map);
+    let largest = movers.iter().map(|mover: &MoverInfo| mover.radius).fold(0.0, f64::max);
+    let grid = Grid::new(&scene.map, largest);
     let static_tiles = StaticTiles::new(&grid, &fixtures, scene.params.static_tile_limit as u64);
     let mut model = Model {
         params: scene.params,
@@ -68,6 +70,7 @@ pub(super) enum Compiled {
 }
 
 pub(super) fn compile_body(body: &Body, order: u32) -> Result<Compiled, Diagnostic> {
+    check_numbers(body)?;
     let identity = Identity { key: body.key, id: body.id, label: Arc::from(body.label.as_str()), order };
     match (&body.motion, &body.shape) {
         (Motion::Dynamic { mass, velocity }, Shape::Sphere { radius }) => Ok(Compiled::Mover(
@@ -117,6 +120,69 @@ pub(super) fn compile_body(body: &Body, order: u32) -> Result<Compiled, Diagnost
             "remove the body, or replace what this version does not know",
         )),
     }
+}
+
+/// Scenes made by code have passed no reader.
+fn check_numbers(body: &Body) -> Result<(), Diagnostic> {
+    let wrong = |what: &str, hint: &str| Err(problem(body, format!("{what} is out of range"), hint));
+    if !body.position.is_finite() || !body.rotation.is_finite() {
+        return wrong("its position or rotation", "give finite numbers");
+    }
+    if !(body.bounce.is_finite() && body.bounce >= 0.0) {
+        return wrong("its Bounce", "give a number of 0 or more");
+    }
+    if let Motion::Dynamic { mass, velocity } = body.motion
+        && !(mass.is_finite() && mass > 0.0 && velocity.is_finite())
+    {
+        return wrong("its mass or velocity", "give a mass above 0 kg and a finite velocity");
+    }
+    let sizes = match body.shape {
+        Shape::Sphere { radius } => [radius, radius],
+        Shape::Plane { half_x, half_y } => [half_x, half_y],
+        Shape::Unbuilt { .. } => return Ok(()),
+    };
+    if sizes.into_iter().all(|size| size.is_finite() && size > 0.0) {
+        Ok(())
+    } else {
+        wrong("its size", "give sizes above 0 m")
+    }
+}
+
+fn check_world(scene: &Scene) -> Vec<Diagnostic> {
+    let mut problems = Vec::new();
+    let mut add = |key, message: String, hint: &str| {
+        problems.push(Diagnostic {
+            severity: Severity::Error,
+            position: None,
+            path: String::new(),
+            message,
+            hint: hint.into(),
+            key,
+        });
+    };
+    let size = scene.map.size;
+    if !(size.is_finite() && size.min_element() > 0.0) || scene.map.tiles.contains(&0) {
+        add(
+            None,
+            "the map's size or tile counts are out of range".into(),
+            "give sizes above 0 m and counts above 0",
+        );
+    }
+    for force in &scene.forces {
+        let numbers = match force.kind {
+            ForceKind::GravityPoint { position, intensity } => position.is_finite() && intensity.is_finite(),
+            ForceKind::GravityPlane { acceleration, .. } => acceleration.is_finite(),
+            ForceKind::Drag { density } => density.is_finite() && density >= 0.0,
+        };
+        if !numbers {
+            add(
+                Some(force.key),
+                format!("force {}: its numbers are out of range", force.label),
+                "give finite numbers",
+            );
+        }
+    }
+    problems
 }
 
 fn problem(body: &Body, what: String, hint: &str) -> Diagnostic {

@@ -166,6 +166,11 @@ fn fault(model: &Model, body: u32, time: f64, error: SegmentError) -> Fault {
                 "body {label}: position, velocity or force is not a finite number; look at its forces and start"
             )
         }
+        SegmentError::InCore => {
+            format!(
+                "body {label}: its centre lies on a point attractor, where the force has no value; move one of them"
+            )
+        }
         SegmentError::Stalled => {
             format!(
                 "body {label}: the integrator's step has shrunk to nothing; a force is singular or not smooth there"

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::radau::{RadauError, RadauStart, radau_step};
 use crate::sim::account::book_segment;
 use crate::sim::contact::{Contact, constrain};
-use crate::sim::force::Subject;
+use crate::sim::force::{Law, Subject};
 use crate::sim::model::Model;
 use crate::sim::segment::Segment;
 use crate::sim::state::{FieldColumn, State};
@@ -15,6 +15,8 @@ use crate::sim::state::{FieldColumn, State};
 pub(in crate::sim) enum SegmentError {
     NotFinite,
     Stalled,
+    /// The centre lies within the core of a point attractor, where its force has no meaning.
+    InCore,
 }
 
 /// Sum of the applied forces, N.
@@ -39,6 +41,9 @@ pub(in crate::sim) fn begin_segment(
     v: DVec3,
 ) -> Result<(), SegmentError> {
     book_segment(model, state, body, time);
+    if in_core(model, x) {
+        return Err(SegmentError::InCore);
+    }
     let mut segment = if needs_integration(model, state, body) {
         integrated(model, state, body, time, x, v)?
     } else {
@@ -55,6 +60,17 @@ pub(in crate::sim) fn begin_segment(
     state.stamps[index] = state.stamps[index].wrapping_add(1);
     state.counters.segments += 1;
     Ok(())
+}
+
+/// Whether a point lies well inside the core of an attractor: a body that falls there turns back at the
+/// core's surface, so only one that was put there can be inside.
+fn in_core(model: &Model, at: DVec3) -> bool {
+    model.forces.iter().any(|force| match force.law {
+        Law::Point { center, intensity } if intensity > 0.0 => {
+            (at - center).length() < 0.5 * model.params.core_radius
+        }
+        _ => false,
+    })
 }
 
 fn needs_integration(model: &Model, state: &State, body: u32) -> bool {

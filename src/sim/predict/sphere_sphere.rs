@@ -10,6 +10,8 @@ struct Relative {
     position: DVec3,
     velocity: DVec3,
     acceleration: DVec3,
+    /// Size of the speeds whose difference the velocity is: its rounding is a fraction of that.
+    speeds: f64,
 }
 
 pub(super) fn first_contact(a: Mover<'_>, b: Mover<'_>, hold: f64, from: f64) -> Option<f64> {
@@ -34,7 +36,8 @@ pub(super) fn first_contact_fixed(mover: Mover<'_>, center: DVec3, radius: f64, 
     let from = seg.start.max(from);
     if mover.path.series.is_none() && seg.a == DVec3::ZERO {
         let position = center - mover.path.position(from);
-        let relative = Relative { position, velocity: -seg.v, acceleration: DVec3::ZERO };
+        let relative =
+            Relative { position, velocity: -seg.v, acceleration: DVec3::ZERO, speeds: seg.v.length() };
         return straight(&relative, mover.radius + radius)
             .map(|tau| from + tau)
             .filter(|time| *time <= seg.end);
@@ -53,20 +56,23 @@ pub(super) fn gap(a: Mover<'_>, b: Mover<'_>, time: f64) -> Gap {
 }
 
 pub(super) fn gap_fixed(mover: Mover<'_>, center: DVec3, radius: f64, time: f64) -> Gap {
-    let at = mover.path.position(time);
+    let (at, velocity) = (mover.path.position(time), mover.path.velocity(time));
     let relative = Relative {
         position: center - at,
-        velocity: -mover.path.velocity(time),
+        velocity: -velocity,
         acceleration: -mover.path.acceleration(time),
+        speeds: velocity.length(),
     };
     gap_of(&relative, at, mover.radius, radius)
 }
 
 fn relative(a: Mover<'_>, b: Mover<'_>, time: f64) -> Relative {
+    let (velocity_a, velocity_b) = (a.path.velocity(time), b.path.velocity(time));
     Relative {
         position: b.path.position(time) - a.path.position(time),
-        velocity: b.path.velocity(time) - a.path.velocity(time),
+        velocity: velocity_b - velocity_a,
         acceleration: b.path.acceleration(time) - a.path.acceleration(time),
+        speeds: velocity_a.length() + velocity_b.length(),
     }
 }
 
@@ -82,7 +88,7 @@ fn gap_of(relative: &Relative, at: DVec3, radius_a: f64, radius_b: f64) -> Gap {
     let drive = normal.dot(relative.acceleration);
     Gap {
         distance: distance - (radius_a + radius_b),
-        rate: snap(rate, relative.velocity.length()),
+        rate: snap(rate, relative.speeds),
         bend: snap(drive + turn, relative.acceleration.length() + turn),
         drive,
         normal,
@@ -104,7 +110,7 @@ fn pressed_together(a: Mover<'_>, b: Mover<'_>, relative: &Relative, hold: f64) 
 fn straight(relative: &Relative, reach: f64) -> Option<f64> {
     let (p, v) = (relative.position, relative.velocity);
     let approach = p.dot(v);
-    if approach >= 0.0 {
+    if snap(approach, p.length() * relative.speeds) >= 0.0 {
         return None;
     }
     let distance = p.length();

@@ -19,10 +19,22 @@ pub(in crate::sim) struct TileRange {
     pub high: [u32; 3],
 }
 
+/// Tiles per axis that the largest moving body may span. Each move to other tiles costs as many list
+/// changes as it has tiles on a side, so a finer grid only costs.
+const MOST_SPANNED: f64 = 16.0;
+
 impl Grid {
-    pub fn new(map: &Map) -> Self {
-        let [x, y, z] = map.tiles.map(f64::from);
-        Self { tile_size: map.size / DVec3::new(x, y, z), counts: map.tiles }
+    /// The map's grid. Tiles far finer than the largest moving body (radius in m) are merged 2×2×2, as
+    /// often as it takes: results do not depend on the grid, but time and memory do.
+    pub fn new(map: &Map, largest_radius: f64) -> Self {
+        let mut counts = map.tiles;
+        let tile_size = |counts: [u32; 3]| map.size / DVec3::from_array(counts.map(f64::from));
+        for axis in 0..3 {
+            while counts[axis] > 1 && 2.0 * largest_radius > MOST_SPANNED * tile_size(counts)[axis] {
+                counts[axis] = counts[axis].div_ceil(2);
+            }
+        }
+        Self { tile_size: tile_size(counts), counts }
     }
 
     /// Tiles that the box from `low` to `high` (m) touches.
