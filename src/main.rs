@@ -1,14 +1,13 @@
 //! Chooses between the editor's window and the verbs, and turns what happened into an exit code.
 
-use std::path::PathBuf;
 use std::process::ExitCode;
 
-use polyscene::cli::{self, CliError, Request};
+use polyscene::cli::{self, CliError, EditArgs, Request};
 
 fn main() -> ExitCode {
     let outcome = match cli::parse(std::env::args_os()) {
         Request::Help(error) => return cli::print_help(&error),
-        Request::Edit(scene) => open_editor(scene),
+        Request::Edit(args) => open_editor(args),
         Request::Verb(verb) => verb.execute(),
     };
     match outcome {
@@ -21,11 +20,22 @@ fn main() -> ExitCode {
 }
 
 #[cfg(feature = "gui")]
-fn open_editor(_scene: Option<PathBuf>) -> Result<(), CliError> {
-    Err(CliError::no_window("the window is not there yet"))
+fn open_editor(args: EditArgs) -> Result<(), CliError> {
+    use polyscene::gui::{self, GuiError};
+
+    let EditArgs { scene, window_size, screenshot, steps, bench_orbit } = args;
+    let options = gui::Options { scene, window_size, screenshot, steps, bench_orbit };
+    let report = gui::run(options).map_err(|error| match error {
+        GuiError::NoWindow(reason) => CliError::no_window(reason),
+        other => CliError::Usage(other.to_string()),
+    })?;
+    if bench_orbit.is_some() {
+        cli::say(report);
+    }
+    Ok(())
 }
 
 #[cfg(not(feature = "gui"))]
-fn open_editor(_scene: Option<PathBuf>) -> Result<(), CliError> {
+fn open_editor(_args: EditArgs) -> Result<(), CliError> {
     Err(CliError::no_window("this program was built without its window (the feature `gui`)"))
 }

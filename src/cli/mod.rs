@@ -1,6 +1,7 @@
 //! The command line: verbs that need no display. Knows neither the editor nor the window.
 
 mod check;
+mod edit;
 mod error;
 mod input;
 mod number;
@@ -10,12 +11,12 @@ mod render;
 mod run;
 
 use std::ffi::OsString;
-use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
 pub use check::CheckArgs;
+pub use edit::EditArgs;
 pub use error::{CliError, say};
 pub use input::{Examined, examine};
 #[cfg(feature = "render")]
@@ -39,8 +40,8 @@ struct Cli {
     #[command(subcommand)]
     verb: Option<Verb>,
 
-    /// Scene file to open in the editor
-    scene: Option<PathBuf>,
+    #[command(flatten)]
+    edit: EditArgs,
 }
 
 /// The table of verbs: one line here and one in [`Verb::execute`].
@@ -66,8 +67,8 @@ impl Verb {
 
 /// What the command line asks for.
 pub enum Request {
-    /// Open the editor, on this file if there is one.
-    Edit(Option<PathBuf>),
+    /// Open the editor.
+    Edit(EditArgs),
     Verb(Verb),
     /// Help, the version, or a complaint about the arguments.
     Help(clap::Error),
@@ -77,7 +78,7 @@ pub enum Request {
 pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Request {
     match Cli::try_parse_from(arguments) {
         Ok(Cli { verb: Some(verb), .. }) => Request::Verb(verb),
-        Ok(Cli { verb: None, scene }) => Request::Edit(scene),
+        Ok(Cli { verb: None, edit }) => Request::Edit(edit),
         Err(error) => Request::Help(error),
     }
 }

@@ -24,3 +24,16 @@ fn number(text: &str) -> Result<f64, String> {
         }
     })
 }
+
+/// A width and a height, such as `1600x1000`.
+pub(super) fn size(text: &str) -> Result<[u32; 2], String> {
+    const MOST: u32 = 16_384;
+    let parsed = text.split_once(['x', 'X', '×']).and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
+    match parsed {
+        Some([width, height]) if (16..=MOST).contains(&width) && (16..=MOST).contains(&height) => {
+            Ok([width, height])
+        }
+        Some(_) => Err(format!("each side must be from 16 to {MOST} pixels")),
+        None => Err("expected a width and a height, such as 1600x1000".into()),
+    }
+}

@@ -40,7 +40,7 @@ pub struct RenderArgs {
     dt: f64,
 
     /// Size of the picture in pixels
-    #[arg(long, value_name = "WxH", value_parser = size, default_value = "1600x1000")]
+    #[arg(long, value_name = "WxH", value_parser = number::size, default_value = "1600x1000")]
     size: [u32; 2],
 
     /// The four views side by side, or one of them
@@ -189,18 +189,6 @@ fn frame_at(scene: &Scene, at: f64, dt: f64) -> Result<Arc<Frame>, Fault> {
 /// Seconds; the start, which is no length of time, counts.
 fn moment(text: &str) -> Result<f64, String> {
     if text.parse() == Ok(0.0) { Ok(0.0) } else { number::seconds(text) }
-}
-
-fn size(text: &str) -> Result<[u32; 2], String> {
-    const MOST: u32 = 16_384;
-    let parsed = text.split_once(['x', 'X', '×']).and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
-    match parsed {
-        Some([width, height]) if (16..=MOST).contains(&width) && (16..=MOST).contains(&height) => {
-            Ok([width, height])
-        }
-        Some(_) => Err(format!("each side must be from 16 to {MOST} pixels")),
-        None => Err("expected a width and a height, such as 1600x1000".into()),
-    }
 }
 
 fn zoom(text: &str) -> Result<f64, String> {

@@ -72,6 +72,14 @@ pub const COMMANDS: &[CommandInfo] = &[
     row(Menu::Edit, 2, "select_none", "Select none", "Clears the selection")
         .runs(Command::SelectNone)
         .keys(&[Shortcut::plain(Key::Escape)]),
+    row(Menu::Edit, 2, "find", "Find in the scene tree", "Shows only what has the letters typed in its name")
+        .runs(Command::Find)
+        .keys(&[Shortcut::ctrl('F')])
+        .when(Session::has_scene),
+    row(Menu::Edit, 3, "rename", "Rename", "Gives what was selected last a name")
+        .runs(Command::Rename)
+        .keys(&[Shortcut::plain(Key::Function(2))])
+        .when(Session::has_selection),
     row(
         Menu::Edit,
         3,
@@ -227,16 +235,16 @@ pub const COMMANDS: &[CommandInfo] = &[
         .keys(&[Shortcut::plain(Key::Char('A'))]),
     row(Menu::View, 1, "view_perspective", "Perspective", "Looks at the scene with perspective")
         .runs(Command::ViewPerspective)
-        .keys(&[Shortcut::plain(Key::Char('1')), Shortcut::plain(Key::Numpad(5))]),
+        .keys(&[Shortcut::plain(Key::Char('1'))]),
     row(Menu::View, 1, "view_top", "Top", "Looks down on the scene, against y")
         .runs(Command::ViewAlong(AxisView::Top))
-        .keys(&[Shortcut::plain(Key::Char('2')), Shortcut::plain(Key::Numpad(7))]),
+        .keys(&[Shortcut::plain(Key::Char('2'))]),
     row(Menu::View, 1, "view_front", "Front", "Looks at the scene from the front, against z")
         .runs(Command::ViewAlong(AxisView::Front))
-        .keys(&[Shortcut::plain(Key::Char('3')), Shortcut::plain(Key::Numpad(1))]),
+        .keys(&[Shortcut::plain(Key::Char('3'))]),
     row(Menu::View, 1, "view_right", "Right", "Looks at the scene from the right, against x")
         .runs(Command::ViewAlong(AxisView::Right))
-        .keys(&[Shortcut::plain(Key::Char('4')), Shortcut::plain(Key::Numpad(3))]),
+        .keys(&[Shortcut::plain(Key::Char('4'))]),
     row(Menu::View, 1, "view_bottom", "Bottom", "Looks up at the scene, along y")
         .runs(Command::ViewAlong(AxisView::Bottom))
         .keys(&[Shortcut::shift(Key::Char('2'))]),
@@ -259,6 +267,22 @@ pub const COMMANDS: &[CommandInfo] = &[
     .runs(Command::MaximizeView)
     .icon('⊞')
     .keys(&[Shortcut::plain(Key::Char('M'))]),
+    row(Menu::View, 2, "show_one_view", "One view", "Shows the active view alone").runs(Command::ShowOneView),
+    row(Menu::View, 2, "show_two_views", "Two views", "Shows the perspective and one view along an axis")
+        .runs(Command::ShowTwoViews),
+    row(Menu::View, 2, "show_four_views", "Four views", "Shows perspective, top, front and right")
+        .runs(Command::ShowFourViews),
+    row(
+        Menu::View,
+        3,
+        "toggle_snapping",
+        "Snap while dragging",
+        "Dragged bodies stop at multiples of a round step that suits the magnification",
+    )
+    .runs(Command::ToggleSnapping)
+    .keys(&[Shortcut::plain(Key::Char('G'))]),
+    row(Menu::View, 4, "switch_colors", "Dark or light colours", "Switches the colours of the window")
+        .runs(Command::SwitchColors),
     //
     row(Menu::Help, 0, "help", "Help", "Explains the window in one page")
         .runs(Command::Help)

@@ -59,7 +59,16 @@ pub enum Command {
     ViewPerspective,
     ViewAlong(AxisView),
     MaximizeView,
+    ShowOneView,
+    ShowTwoViews,
+    ShowFourViews,
     ToggleProjection,
+    SwitchColors,
+    ToggleSnapping,
+    /// Puts the keyboard into the filter of the scene tree.
+    Find,
+    /// Opens the name of what was selected last for typing.
+    Rename,
     /// The n-th of [`crate::view::OVERLAYS`], in the active view.
     ToggleOverlay(usize),
 
@@ -114,7 +123,6 @@ pub enum Key {
     Escape,
     End,
     Function(u8),
-    Numpad(u8),
 }
 
 /// A key with its modifiers.
@@ -169,7 +177,6 @@ impl fmt::Display for Shortcut {
             Key::Escape => f.write_str("Esc"),
             Key::End => f.write_str("End"),
             Key::Function(n) => write!(f, "F{n}"),
-            Key::Numpad(n) => write!(f, "Num {n}"),
         }
     }
 }

@@ -1,5 +1,7 @@
 //! Moving the selection with the mouse: positions follow the pointer, one undo point for the whole drag.
 
+use std::collections::BTreeSet;
+
 use glam::DVec3;
 
 use super::edits::locked_keys;
@@ -17,9 +19,15 @@ pub struct Drag {
 impl Drag {
     /// Takes hold of the selection without what is locked. `None` when nothing is left to move.
     pub fn of_selection(session: &Session, gesture: Gesture) -> Option<Self> {
+        Self::of(session, session.selection().keys(), gesture)
+    }
+
+    /// Takes hold of these without what is locked. `None` when nothing is left to move.
+    pub fn of(session: &Session, keys: &[NodeKey], gesture: Gesture) -> Option<Self> {
         let scene = session.scene()?;
         let locked = locked_keys(scene);
-        let chosen = |key: NodeKey| session.selection().contains(key) && !locked.contains(&key);
+        let keys: BTreeSet<NodeKey> = keys.iter().copied().collect();
+        let chosen = |key: NodeKey| keys.contains(&key) && !locked.contains(&key);
         let bodies: Vec<_> = scene.bodies.iter().filter(|body| chosen(body.key)).collect();
         let forces: Vec<_> = scene.forces.iter().filter(|force| chosen(force.key)).collect();
         let drag = Self {

@@ -127,6 +127,7 @@ impl Session {
         self.selection.clear();
         self.shown_event = None;
         self.after_save = None;
+        self.opened += 1;
         self.sync();
     }
 

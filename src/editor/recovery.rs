@@ -142,6 +142,13 @@ impl Session {
         }
     }
 
+    /// Whether a copy of unsaved work is due: [`Session::poll`] makes it when called later.
+    pub fn wants_recovery_copy(&self) -> bool {
+        self.is_dirty()
+            && self.recovery.folder.is_some()
+            && self.recovery.copied != Some(self.document_state())
+    }
+
     pub(super) fn write_recovery(&mut self) -> std::io::Result<()> {
         let Some(base) = self.recovery.own_base()? else { return Ok(()) };
         let about = Recovered {

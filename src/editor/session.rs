@@ -34,6 +34,7 @@ pub struct Session {
     pub(super) after_save: Option<Intent>,
     pub(super) frame: Arc<Frame>,
     pub(super) shown_event: Option<Arc<EventRow>>,
+    pub(super) opened: u64,
     runner: Box<dyn Runner>,
     /// The scene that the runner runs; `None` when it has none.
     running: Option<Running>,
@@ -91,6 +92,7 @@ impl Session {
             after_save: None,
             frame: runner.frame(),
             shown_event: None,
+            opened: 0,
             runner,
             running: None,
             unsynced: false,
@@ -128,6 +130,11 @@ impl Session {
     /// Whether the document differs from its file.
     pub fn is_dirty(&self) -> bool {
         self.history.is_dirty()
+    }
+
+    /// Grows with every document that replaces another: opened, restored or new.
+    pub fn opened_count(&self) -> u64 {
+        self.opened
     }
 
     /// Grows or changes with every change of the document: equal means the very same document.

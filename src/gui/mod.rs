@@ -1,1 +1,29 @@
-//! (to come)
+//! The editor's window: panels and views in egui, over the layers `editor`, `view` and `render`.
+//! Panels get a read-only [`context::AppContext`] and send messages up; [`App`] carries them out.
+
+mod app;
+mod colors;
+mod context;
+mod dialogs;
+mod error;
+mod events;
+mod icons;
+mod inspector;
+mod launch;
+mod menu;
+mod numbers;
+mod problems;
+mod shortcuts;
+mod start;
+mod status;
+mod theme;
+mod toasts;
+mod transport;
+mod tree;
+mod viewport;
+mod widgets;
+
+pub use app::{App, Parts};
+pub use dialogs::{FileAnswer, FileDialogs, FileRequest, NoFileDialogs};
+pub use error::GuiError;
+pub use launch::{Options, Report, run};

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::publish::{Pace, frame_of};
 use super::recorder::Recorder;
-use super::{Frame, RunCommand, Runner};
+use super::{Frame, RunCommand, RunState, Runner};
 
 /// Runs on the caller's thread. While it plays, [`Runner::tick`] is its clock.
 #[derive(Debug, Default)]
@@ -35,7 +35,10 @@ impl Runner for InlineRunner {
     }
 
     fn tick(&mut self, wall_s: f64) {
-        self.recorder.elapse(wall_s);
-        self.settle();
+        // a simulation at rest publishes nothing new
+        if self.recorder.state() == RunState::Playing {
+            self.recorder.elapse(wall_s);
+            self.settle();
+        }
     }
 }

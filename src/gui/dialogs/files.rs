@@ -1,0 +1,98 @@
+//! The system's file dialogs, behind a trait so that tests never open one.
+
+use std::path::PathBuf;
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::time::{Duration, Instant};
+
+use crate::editor::Action;
+
+/// What a file dialog is for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum FileRequest {
+    Open,
+    Save { directory: Option<PathBuf>, file_name: String },
+}
+
+impl FileRequest {
+    /// What to do with the file chosen.
+    pub fn action(&self, path: PathBuf) -> Action {
+        match self {
+            Self::Open => Action::OpenPath(path),
+            Self::Save { .. } => Action::SaveTo(path),
+        }
+    }
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum FileAnswer {
+    Chosen(PathBuf),
+    Cancelled,
+    /// There is no system dialog: the window shows its own.
+    Unavailable,
+}
+
+/// Asks the user for a file, without blocking.
+pub trait FileDialogs {
+    fn ask(&mut self, ctx: &egui::Context, request: &FileRequest);
+
+    /// The answer, once it is there.
+    fn answer(&mut self) -> Option<FileAnswer>;
+}
+
+/// No system dialogs: the window's own is shown.
+#[derive(Default)]
+pub struct NoFileDialogs;
+
+impl FileDialogs for NoFileDialogs {
+    fn ask(&mut self, _ctx: &egui::Context, _request: &FileRequest) {}
+
+    fn answer(&mut self) -> Option<FileAnswer> {
+        Some(FileAnswer::Unavailable)
+    }
+}
+
+/// An answer of nothing this soon means that there is no dialog, not that it was cancelled.
+const TOO_SOON: Duration = Duration::from_millis(500);
+
+/// The desktop's own dialogs, each on a thread of its own.
+#[derive(Default)]
+pub struct NativeFileDialogs {
+    waiting: Option<(Instant, Receiver<Option<PathBuf>>)>,
+}
+
+impl FileDialogs for NativeFileDialogs {
+    fn ask(&mut self, ctx: &egui::Context, request: &FileRequest) {
+        let (sender, receiver) = channel();
+        let (ctx, request) = (ctx.clone(), request.clone());
+        std::thread::spawn(move || {
+            let dialog = rfd::FileDialog::new().add_filter("Scenes (*.xml)", &["xml"]);
+            let chosen = match request {
+                FileRequest::Open => dialog.pick_file(),
+                FileRequest::Save { directory, file_name } => {
+                    let dialog = dialog.set_title("Save the scene as").set_file_name(file_name);
+                    match directory {
+                        Some(directory) => dialog.set_directory(directory).save_file(),
+                        None => dialog.save_file(),
+                    }
+                }
+            };
+            // the window may be gone by now
+            let _ = sender.send(chosen);
+            ctx.request_repaint();
+        });
+        self.waiting = Some((Instant::now(), receiver));
+    }
+
+    fn answer(&mut self) -> Option<FileAnswer> {
+        let (since, receiver) = self.waiting.as_ref()?;
+        let answer = match receiver.try_recv() {
+            Ok(Some(path)) => FileAnswer::Chosen(path),
+            Ok(None) if since.elapsed() < TOO_SOON => FileAnswer::Unavailable,
+            Ok(None) => FileAnswer::Cancelled,
+            Err(TryRecvError::Disconnected) => FileAnswer::Unavailable,
+            Err(TryRecvError::Empty) => return None,
+        };
+        self.waiting = None;
+        Some(answer)
+    }
+}

@@ -1,0 +1,135 @@
+//! Help: the window on one page, all keys and gestures, and what this program is.
+
+use egui::{Context, Grid, Id, Modal, RichText, ScrollArea, Ui};
+
+use crate::editor::{COMMANDS, Menu};
+use crate::gui::widgets::mono;
+use crate::view::OVERLAYS;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HelpPage {
+    Window,
+    Keys,
+    About,
+}
+
+const WINDOW: [(&str, &str); 7] = [
+    (
+        "Scene",
+        "Map, simulation, forces and bodies. Click selects, Ctrl adds, Shift takes a range; double click renames. The eye hides, the lock protects.",
+    ),
+    (
+        "Inspector",
+        "Every number of the selection: on the left what it starts with, which you edit; on the right what it is now. Type with comma or point, or a fraction.",
+    ),
+    (
+        "Views",
+        "Each has its own camera and its own overlays. Walls that stand in front of the scene become glass, so that a closed box shows its inside.",
+    ),
+    (
+        "Transport",
+        "Step by Δt, or event by event inside a Δt. Δt only says where to look: events and states are the same for every Δt.",
+    ),
+    (
+        "Editing while it runs",
+        "Forces, static bodies, bounce and mass take hold at once. Positions, velocities and settings change the start and wait for a reset.",
+    ),
+    (
+        "Events",
+        "The collisions of the last Δt. A click shows the place in all views, a double click goes there.",
+    ),
+    (
+        "Problems",
+        "What is wrong with the file or the scene, with line and column, and a button where there is a way out.",
+    ),
+];
+
+const GESTURES: [(&str, &str); 11] = [
+    ("Click", "Select; again at the same place: what lies behind"),
+    ("Ctrl or Shift + click", "Add to the selection or take out"),
+    ("Drag", "Select by a rectangle"),
+    ("Drag a body", "Move it, in views along an axis; static bodies when selected. Esc gives up"),
+    ("Middle or right drag", "Turn a perspective view, move a view along an axis"),
+    ("Shift + middle drag", "Move the view"),
+    ("Wheel", "Magnify at the pointer"),
+    ("Right click", "Menu"),
+    ("Double click a body", "Bring it into the middle"),
+    ("Double click a view's title", "Fill the middle with it"),
+    ("Arrows, Page Up and Down", "Turn or move, and magnify the view that has the keyboard"),
+];
+
+/// Whether it was closed.
+pub fn show(ctx: &Context, page: HelpPage) -> bool {
+    let mut closed = false;
+    let modal = Modal::new(Id::unique("help")).show(ctx, |ui| {
+        ui.set_width(660.0);
+        let height = (ctx.content_rect().height() - 180.0).clamp(200.0, 620.0);
+        ui.heading(match page {
+            HelpPage::Window => "The window",
+            HelpPage::Keys => "Keys and gestures",
+            HelpPage::About => "About PolyScene",
+        });
+        ui.add_space(6.0);
+        ScrollArea::vertical().max_height(height).auto_shrink([false, true]).show(ui, |ui| match page {
+            HelpPage::Window => window(ui),
+            HelpPage::Keys => keys(ui),
+            HelpPage::About => about(ui),
+        });
+        ui.add_space(8.0);
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            closed = ui.button("Close").clicked();
+        });
+    });
+    closed || modal.should_close()
+}
+
+fn window(ui: &mut Ui) {
+    for (name, text) in WINDOW {
+        ui.label(RichText::new(name).strong());
+        ui.label(text);
+        ui.add_space(6.0);
+    }
+    ui.label(RichText::new("Overlays").strong());
+    Grid::new("overlay help").num_columns(2).spacing([16.0, 3.0]).show(ui, |ui| {
+        for overlay in OVERLAYS {
+            ui.label(overlay.label);
+            ui.label(RichText::new(overlay.help).weak());
+            ui.end_row();
+        }
+    });
+}
+
+fn keys(ui: &mut Ui) {
+    for menu in Menu::ALL {
+        ui.label(RichText::new(menu.label()).strong());
+        Grid::new(("keys", menu.label())).num_columns(3).spacing([16.0, 2.0]).show(ui, |ui| {
+            for row in COMMANDS.iter().filter(|row| row.menu == menu && !row.shortcuts.is_empty()) {
+                let keys: Vec<String> = row.shortcuts.iter().map(ToString::to_string).collect();
+                ui.label(mono(keys.join("  ")));
+                ui.label(row.label);
+                ui.label(RichText::new(row.help).weak());
+                ui.end_row();
+            }
+        });
+        ui.add_space(6.0);
+    }
+    ui.label(RichText::new("Mouse, in the views").strong());
+    Grid::new("gestures").num_columns(2).spacing([16.0, 2.0]).show(ui, |ui| {
+        for (gesture, effect) in GESTURES {
+            ui.label(gesture);
+            ui.label(RichText::new(effect).weak());
+            ui.end_row();
+        }
+    });
+}
+
+fn about(ui: &mut Ui) {
+    ui.label(format!("PolyScene {}", env!("CARGO_PKG_VERSION")));
+    ui.label(env!("CARGO_PKG_DESCRIPTION"));
+    ui.add_space(6.0);
+    ui.label("Licensed under MIT or Apache-2.0, at your choice.");
+    ui.label(
+        "A fault is best reported as a small scene file with the command that shows it: the same scene \
+         gives the same bits on every machine.",
+    );
+}

@@ -1,0 +1,98 @@
+//! Dialogs: questions, files, the command palette, help.
+
+mod files;
+mod help;
+mod palette;
+mod path;
+mod question;
+
+use egui::Context;
+
+use super::context::AppContext;
+use crate::editor::{Action, Command, Request};
+
+pub use files::{FileAnswer, FileDialogs, FileRequest, NativeFileDialogs, NoFileDialogs};
+use help::HelpPage;
+use palette::Palette;
+use path::PathDialog;
+
+/// All dialogs; at most one of them is open beside a question.
+pub struct Dialogs {
+    files: Box<dyn FileDialogs>,
+    /// What the open file dialog is for.
+    asked: Option<FileRequest>,
+    path: Option<PathDialog>,
+    palette: Option<Palette>,
+    help: Option<HelpPage>,
+}
+
+impl Dialogs {
+    pub fn new(files: Box<dyn FileDialogs>) -> Self {
+        Self { files, asked: None, path: None, palette: None, help: None }
+    }
+
+    /// Whether a dialog has the keyboard, so that shortcuts wait.
+    pub fn are_open(&self) -> bool {
+        self.asked.is_some() || self.path.is_some() || self.palette.is_some() || self.help.is_some()
+    }
+
+    /// Carries out a command that opens a dialog; `false` if it is none.
+    pub fn execute(&mut self, command: Command) -> bool {
+        match command {
+            Command::Palette => self.palette = Some(Palette::default()),
+            Command::Help => self.help = Some(HelpPage::Window),
+            Command::Shortcuts => self.help = Some(HelpPage::Keys),
+            Command::About => self.help = Some(HelpPage::About),
+            _ => return false,
+        }
+        true
+    }
+
+    /// Opens a file dialog that the session asks for.
+    pub fn ask_for_file(&mut self, ctx: &Context, request: &Request) {
+        let request = match request {
+            Request::ChooseOpenPath => FileRequest::Open,
+            Request::ChooseSavePath { directory, file_name } => {
+                FileRequest::Save { directory: directory.clone(), file_name: file_name.clone() }
+            }
+            _ => return,
+        };
+        self.files.ask(ctx, &request);
+        self.asked = Some(request);
+    }
+
+    pub fn show(&mut self, ctx: &Context, context: &AppContext<'_>) {
+        self.take_file_answer(context);
+        if let Some(dialog) = &mut self.path
+            && let Some(action) = dialog.show(ctx)
+        {
+            context.outbox.act(action);
+            self.path = None;
+        }
+        if let Some(palette) = &mut self.palette
+            && palette.show(ctx, context)
+        {
+            self.palette = None;
+        }
+        if let Some(page) = self.help
+            && help::show(ctx, page)
+        {
+            self.help = None;
+        }
+        if let Some(question) = context.session.question()
+            && let Some(answer) = question::show(ctx, question)
+        {
+            context.outbox.act(Action::Answer(answer));
+        }
+    }
+
+    fn take_file_answer(&mut self, context: &AppContext<'_>) {
+        let Some(answer) = self.asked.as_ref().and_then(|_| self.files.answer()) else { return };
+        let Some(request) = self.asked.take() else { return };
+        match answer {
+            FileAnswer::Chosen(path) => context.outbox.act(request.action(path)),
+            FileAnswer::Cancelled => context.outbox.act(Action::DialogCancelled),
+            FileAnswer::Unavailable => self.path = Some(PathDialog::new(request, context.session)),
+        }
+    }
+}

@@ -1,0 +1,12 @@
+//! Why the window can't be opened or a picture of it can't be taken.
+
+/// Every failure of this layer.
+#[derive(Debug, thiserror::Error)]
+pub enum GuiError {
+    /// There is no display, or no OpenGL on it.
+    #[error("{0}")]
+    NoWindow(String),
+    /// A script asked for something that can't be done.
+    #[error("{0}")]
+    Script(String),
+}

@@ -1,0 +1,150 @@
+//! The table of the last Δt's events. A click shows the place, a double click goes there.
+
+use std::fmt::Write as _;
+use std::sync::Arc;
+
+use egui::{RichText, Sense, Ui};
+use egui_extras::{Column, TableBuilder, TableRow};
+
+use super::colors::tones;
+use super::context::{AppContext, Message};
+use super::numbers::significant;
+use super::theme::ROW_HEIGHT;
+use super::widgets::{cell, mono};
+use crate::editor::Action;
+use crate::record::{EventRow, Frame};
+use crate::sim::EventKind;
+
+const TITLES: [(&str, &str); 8] = [
+    ("#", "Number of the event since the start"),
+    ("t [s]", "Model time"),
+    ("Δt", "Where in the Δt it happened, 0 % to 100 %"),
+    ("Kind", "What happened"),
+    ("Bodies", "Who took part; events with one number at the left were resolved together"),
+    (
+        "Normal speed → after [m/s]",
+        "Speed along the normal, of the second body relative to the first: negative when closing",
+    ),
+    ("Impulse [N·s]", "Momentum handed over along the normal"),
+    ("Place [m]", "The point where they touched"),
+];
+
+pub fn show(ui: &mut Ui, context: &AppContext<'_>) {
+    let frame = context.session.frame();
+    if frame.events.is_empty() {
+        ui.add_space(8.0);
+        let text = if frame.dt_index == 0 && frame.open_step.is_none() {
+            "No events yet. Step forward (.) or go to the next event (N)."
+        } else {
+            "No events in this Δt. Next event (N) goes on to one."
+        };
+        ui.label(RichText::new(text).color(tones(ui).weak));
+        return;
+    }
+    if frame.events_truncated {
+        ui.label(RichText::new("Only the last events of this Δt are listed.").color(tones(ui).warning));
+    }
+    let table = TableBuilder::new(ui)
+        .id_salt("events")
+        .striped(true)
+        .sense(Sense::click())
+        .stick_to_bottom(true)
+        .column(Column::initial(52.0).resizable(true))
+        .column(Column::initial(104.0).resizable(true))
+        .column(Column::initial(52.0).resizable(true))
+        .column(Column::initial(84.0).resizable(true))
+        .column(Column::initial(150.0).resizable(true).clip(true))
+        .column(Column::initial(170.0).resizable(true))
+        .column(Column::initial(96.0).resizable(true))
+        .column(Column::remainder().clip(true));
+    table
+        .header(ROW_HEIGHT, |mut header| {
+            for (title, help) in TITLES {
+                cell(&mut header, RichText::new(title).small().weak(), help);
+            }
+        })
+        .body(|body| {
+            body.rows(ROW_HEIGHT, frame.events.len(), |mut row| {
+                if let Some(event) = frame.events.get(row.index()) {
+                    show_row(&mut row, context, frame, event);
+                }
+            });
+        });
+}
+
+fn show_row(row: &mut TableRow<'_, '_>, context: &AppContext<'_>, frame: &Frame, event: &Arc<EventRow>) {
+    let chosen = context.session.shown_event().is_some_and(|shown| shown.event.seq == event.event.seq);
+    row.set_selected(chosen);
+    for (column, text) in cells(frame, event).into_iter().enumerate() {
+        let text = if matches!(column, 3 | 4) { RichText::new(text) } else { mono(text) };
+        cell(row, text, if column == 3 { event.event.kind.meaning() } else { "" });
+    }
+    let response = row.response();
+    response.context_menu(|ui| {
+        if ui.button("Copy all rows").on_hover_text("As text with tabs, for a spreadsheet").clicked() {
+            ui.ctx().copy_text(as_text(frame));
+            ui.close();
+        }
+    });
+    if response.clicked() {
+        let keys = [Some(event.a_key), event.b_key].into_iter().flatten().collect();
+        context.outbox.act(Action::Select(keys));
+        context.outbox.act(Action::ShowEvent((!chosen).then(|| event.clone())));
+    }
+    if response.double_clicked() {
+        context.outbox.act(Action::ShowEvent(Some(event.clone())));
+        context.outbox.send(Message::FramePlace(event.event.point));
+    }
+}
+
+fn cells(frame: &Frame, row: &EventRow) -> [String; 8] {
+    let event = &row.event;
+    let touching = matches!(event.kind, EventKind::Impact | EventKind::Collapse);
+    let if_touching = |text: String| if touching { text } else { String::new() };
+    let [x, y, z] = event.point.to_array().map(|value| significant(value, 5));
+    [
+        event.seq.to_string(),
+        format!("{:.9}", event.time),
+        share(frame, event.time),
+        event.kind.name().replace('_', " "),
+        bodies(row),
+        if_touching(format!("{} → {}", significant(event.vn_before, 6), significant(event.vn_after, 6))),
+        if_touching(significant(event.impulse, 6)),
+        if event.point.is_finite() { format!("{x}, {y}, {z}") } else { String::new() },
+    ]
+}
+
+fn bodies(row: &EventRow) -> String {
+    if row.b_label.is_empty() { row.a_label.clone() } else { format!("{} – {}", row.a_label, row.b_label) }
+}
+
+/// Where in the Δt; known while it is open.
+fn share(frame: &Frame, time: f64) -> String {
+    match frame.open_step {
+        Some((from, to)) if to > from => format!("{:.0} %", 100.0 * (time - from) / (to - from)),
+        _ => String::new(),
+    }
+}
+
+/// All events as text with tabs, full digits.
+pub fn as_text(frame: &Frame) -> String {
+    let mut text = String::from("seq\tt\tkind\ta\tb\tvn_before\tvn_after\timpulse\tx\ty\tz\n");
+    for row in &frame.events {
+        let event = &row.event;
+        let [x, y, z] = event.point.to_array();
+        // writing to a string can't fail
+        let _ = writeln!(
+            text,
+            "{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{x}\t{y}\t{z}",
+            event.seq,
+            event.time,
+            event.kind.name(),
+            row.a_label,
+            row.b_label,
+            event.vn_before,
+            event.vn_after,
+            event.impulse,
+        );
+    }
+    text
+}

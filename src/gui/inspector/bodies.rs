@@ -1,0 +1,218 @@
+//! Bodies: what they start with, and what they do now.
+
+use egui::{Grid, RichText, Ui};
+use glam::DVec3;
+
+use super::number::{Number, number};
+use super::section;
+use super::text::TextFields;
+use crate::editor::{Action, BODY_FIELDS, Field, Shared, shared};
+use crate::gui::colors::tones;
+use crate::gui::context::{AppContext, Shown};
+use crate::gui::numbers::significant;
+use crate::gui::widgets::mono;
+use crate::record::BodyFrame;
+use crate::scene::{Body, BodyChange, Edit, NodeKey, Shape};
+
+pub fn kind(body: &Body) -> &'static str {
+    match (&body.shape, body.is_dynamic()) {
+        (Shape::Sphere { .. }, true) => "dynamic sphere",
+        (Shape::Sphere { .. }, false) => "static sphere",
+        (Shape::Plane { .. }, _) => "static plane",
+        (Shape::Unbuilt { .. }, _) => "not simulated yet",
+    }
+}
+
+pub fn show(ui: &mut Ui, context: &AppContext<'_>, shown: &Shown, keys: &[NodeKey], texts: &mut TextFields) {
+    let bodies: Vec<&Body> = keys.iter().filter_map(|key| shown.body(*key)).collect();
+    let now = match keys {
+        [key] => context.session.frame().bodies.iter().find(|body| body.key == *key),
+        _ => None,
+    };
+    identity(ui, context, shown, &bodies, texts);
+    section(ui, "Values");
+    if !context.session.shows_start() && bodies.iter().any(|body| body.is_dynamic()) {
+        let text = "Edits of position and velocity are for the start; they wait for a reset.";
+        ui.label(RichText::new(text).small().color(tones(ui).weak));
+    }
+    Grid::new("body values").num_columns(4).spacing([6.0, 3.0]).show(ui, |ui| {
+        ui.label("");
+        ui.label(RichText::new("at the start").small().color(tones(ui).weak));
+        let heading = if now.is_some() { "now" } else { "" };
+        ui.label(RichText::new(heading).small().color(tones(ui).weak));
+        ui.end_row();
+        for field in BODY_FIELDS {
+            rows(ui, context, shown, &bodies, keys, field, now);
+        }
+    });
+    if let Some(now) = now {
+        motion(ui, now);
+    }
+}
+
+/// Name, ID, material, colour, marks.
+fn identity(ui: &mut Ui, context: &AppContext<'_>, shown: &Shown, bodies: &[&Body], texts: &mut TextFields) {
+    let outbox = context.outbox;
+    let [first, ..] = bodies else { return };
+    Grid::new("body identity").num_columns(2).spacing([6.0, 4.0]).show(ui, |ui| {
+        if let [body] = bodies {
+            let key = body.key;
+            ui.label("Name");
+            texts.show(ui, outbox, "Name", body.name.as_deref().unwrap_or(""), &body.label, |text| {
+                let name = (!text.is_empty()).then(|| text.to_owned());
+                Some(Edit::Body { key, change: BodyChange::Name(name) })
+            });
+            ui.end_row();
+            ui.label("User ID");
+            texts.show(ui, outbox, "User ID", &body.id.to_string(), "", |text| {
+                Some(Edit::Body { key, change: BodyChange::Id(text.parse().ok()?) })
+            });
+            ui.end_row();
+        }
+        ui.label("Material").on_hover_text("A name that forces of your own may look at");
+        let same = bodies.iter().all(|body| body.material == first.material);
+        let value = if same { first.material.as_deref().unwrap_or("") } else { "" };
+        let hint = if same { "none" } else { "mixed" };
+        texts.show(ui, outbox, "Material", value, hint, |text| {
+            let material = (!text.is_empty()).then(|| text.to_owned());
+            Some(for_all(bodies, |_| BodyChange::Material(material.clone())))
+        });
+        ui.end_row();
+        ui.label("Colour");
+        color(ui, context, shown, bodies);
+        ui.end_row();
+    });
+}
+
+fn color(ui: &mut Ui, context: &AppContext<'_>, shown: &Shown, bodies: &[&Body]) {
+    let Some(first) = bodies.first() else { return };
+    let Some(drawn) = shown.color(first.key, context.palette()) else { return };
+    let [r, g, b, _] = drawn.0;
+    ui.horizontal(|ui| {
+        let mut rgb = [r, g, b];
+        let response = ui.color_edit_button_srgb(&mut rgb);
+        let gesture = crate::editor::Gesture(0x636f_6c6f_7572);
+        if response.changed() {
+            let edit = for_all(bodies, |_| BodyChange::Color(Some(rgb)));
+            context.outbox.act(Action::Edit { edit, gesture: Some(gesture) });
+        }
+        crate::gui::widgets::name_button(ui, &response, "Colour", false);
+        if bodies.iter().any(|body| body.color.is_some()) {
+            let reset = ui.small_button("Automatic").on_hover_text("Lets the views choose the colour");
+            if reset.clicked() {
+                let edit = for_all(bodies, |_| BodyChange::Color(None));
+                context.outbox.act(Action::Edit { edit, gesture: None });
+            }
+        } else {
+            ui.label(RichText::new("chosen by the views").small().color(tones(ui).weak));
+        }
+    });
+}
+
+fn for_all(bodies: &[&Body], change: impl Fn(&Body) -> BodyChange) -> Edit {
+    Edit::All(bodies.iter().map(|body| Edit::Body { key: body.key, change: change(body) }).collect())
+}
+
+/// A number, or one row for each component of a vector.
+fn rows(
+    ui: &mut Ui,
+    context: &AppContext<'_>,
+    shown: &Shown,
+    bodies: &[&Body],
+    keys: &[NodeKey],
+    field: &Field<Body, BodyChange>,
+    now: Option<&BodyFrame>,
+) {
+    for (axis, axis_name) in field.axes.iter().enumerate() {
+        let value = shared(bodies.iter().map(|body| field.value(body, axis)));
+        if value == Shared::None {
+            return;
+        }
+        row_label(ui, if axis == 0 { field.label } else { "" }, axis_name);
+        let name = field.accessible_name(axis);
+        let speed = speed(field.unit, value, shown.scene.map.size.max_element());
+        let spec = Number { name: &name, value, range: field.range, speed, help: help(field.label) };
+        number(ui, context.outbox, &spec, |value| field.edit(&shown.scene, keys, axis, value));
+        match (field.now.zip(now), field.unit) {
+            (Some((get, frame)), _) => {
+                let value = get(frame).to_array().get(axis).copied().unwrap_or(0.0);
+                drop(ui.label(mono(significant(value, 8))).on_hover_text(value.to_string()));
+            }
+            (None, "rad") => degrees(ui, value),
+            (None, _) => drop(ui.label("")),
+        }
+        ui.label(RichText::new(field.unit).color(tones(ui).weak));
+        ui.end_row();
+    }
+}
+
+pub fn row_label(ui: &mut Ui, label: &str, axis: &str) {
+    ui.horizontal(|ui| {
+        ui.set_min_width(76.0);
+        ui.label(label);
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            ui.label(RichText::new(axis).color(tones(ui).weak));
+        });
+    });
+}
+
+fn degrees(ui: &mut Ui, value: Shared) {
+    let text = match value {
+        Shared::Same(radians) => format!("{}°", significant(radians.to_degrees(), 6)),
+        _ => String::new(),
+    };
+    ui.label(mono(text).color(tones(ui).weak));
+}
+
+/// Change per point of dragging: a thousandth of the map, a degree or so, a percent of the value.
+pub fn speed(unit: &str, value: Shared, map: f64) -> f64 {
+    let value = match value {
+        Shared::Same(value) => value.abs(),
+        _ => 1.0,
+    };
+    match unit {
+        "m" => (map / 1000.0).min(0.01 * value.max(0.1 * map)),
+        "rad" => 0.01,
+        _ => 0.01 * value.max(0.1),
+    }
+}
+
+fn help(label: &str) -> &'static str {
+    match label {
+        "Position" => "Centre, in the map's coordinates; y is up",
+        "Rotation" => {
+            "Euler angles about x, y, z: R = Rx(α)·Ry(β)·Rz(γ). At 0 a plane lies in xy, its normal is +z"
+        }
+        "Bounce" => {
+            "Coefficient of restitution: 1 loses nothing, 0 does not bounce. A pair uses the product of both"
+        }
+        "Half side" => "From the middle of the plane to its edge",
+        _ => "",
+    }
+}
+
+/// What only a simulation knows.
+fn motion(ui: &mut Ui, now: &BodyFrame) {
+    section(ui, "Now");
+    Grid::new("body motion").num_columns(4).spacing([6.0, 3.0]).show(ui, |ui| {
+        let triple = |v: DVec3| v.to_array().map(|value| significant(value, 6)).join("  ");
+        let rows = [
+            ("Speed", significant(now.velocity.length(), 8), "m/s", ""),
+            (
+                "Acceleration",
+                triple(now.acceleration),
+                "m/s²",
+                "Of the motion, so contact forces are included",
+            ),
+            ("Total force", triple(now.force), "N", "Sum of the forces of the scene, without contact forces"),
+            ("Kinetic energy", significant(now.kinetic, 8), "J", "½ m v²"),
+            ("Contact", now.contact.name().to_owned(), "", "flight, rest, or slide along a surface"),
+        ];
+        for (label, value, unit, help) in rows {
+            ui.label(label).on_hover_text(help);
+            ui.label(mono(value));
+            ui.label(RichText::new(unit).color(tones(ui).weak));
+            ui.end_row();
+        }
+    });
+}

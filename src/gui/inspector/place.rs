@@ -1,0 +1,129 @@
+//! The map and the simulation: size, tiles, time speed, and every setting of the solver.
+
+use egui::{Grid, RichText, Ui};
+
+use super::bodies::{row_label, speed};
+use super::number::{Number, number};
+use super::section;
+use crate::editor::{Action, Field, SCENE_FIELDS, shared};
+use crate::gui::colors::tones;
+use crate::gui::context::{AppContext, Shown};
+use crate::gui::numbers;
+use crate::scene::{Edit, PARAMS, ParamInfo, Scene, SimParams};
+
+/// Rows of [`SCENE_FIELDS`] that belong to the simulation; the others are the map's.
+const OF_SIMULATION: &str = "Time speed";
+
+pub fn map(ui: &mut Ui, context: &AppContext<'_>, shown: &Shown) {
+    section(ui, "Map");
+    fields(ui, context, shown, "map values", |field| field.label != OF_SIMULATION);
+    let text =
+        "The box [0, x] × [0, y] × [0, z] that the tiles divide. It does not collide: bodies may leave it.";
+    ui.label(RichText::new(text).small().color(tones(ui).weak));
+}
+
+pub fn simulation(ui: &mut Ui, context: &AppContext<'_>, shown: &Shown) {
+    section(ui, "Simulation");
+    fields(ui, context, shown, "simulation values", |field| field.label == OF_SIMULATION);
+    plan(ui, context);
+    section(ui, "Solver");
+    Grid::new("solver").num_columns(4).spacing([6.0, 3.0]).show(ui, |ui| {
+        for param in PARAMS {
+            param_row(ui, context, &shown.scene, param);
+        }
+    });
+    let reasons = context.session.document().reasons_for_1_1();
+    let text = if reasons.is_empty() {
+        "The file is Version 1.0: it uses nothing that older readers do not know.".to_owned()
+    } else {
+        format!("The file is Version 1.1 because of {}.", reasons.join(", "))
+    };
+    ui.add_space(4.0);
+    ui.label(RichText::new(text).small().color(tones(ui).weak));
+}
+
+fn fields(
+    ui: &mut Ui,
+    context: &AppContext<'_>,
+    shown: &Shown,
+    id: &str,
+    wanted: impl Fn(&Field<Scene, Edit>) -> bool,
+) {
+    let scene = &shown.scene;
+    Grid::new(id).num_columns(3).spacing([6.0, 3.0]).show(ui, |ui| {
+        for field in SCENE_FIELDS.iter().filter(|field| wanted(field)) {
+            for (axis, axis_name) in field.axes.iter().enumerate() {
+                let value = shared([field.value(scene, axis)]);
+                row_label(ui, if axis == 0 { field.label } else { "" }, axis_name);
+                let name = field.accessible_name(axis);
+                let speed = if field.label == "Tiles" {
+                    0.1
+                } else {
+                    speed(field.unit, value, scene.map.size.max_element())
+                };
+                let spec = Number { name: &name, value, range: field.range, speed, help: help(field.label) };
+                number(ui, context.outbox, &spec, |value| {
+                    field.change(scene, axis, value).unwrap_or(Edit::All(Vec::new()))
+                });
+                ui.label(RichText::new(field.unit).color(tones(ui).weak));
+                ui.end_row();
+            }
+        }
+    });
+}
+
+fn help(label: &str) -> &'static str {
+    match label {
+        "Tiles" => "How many tiles divide the map; changes the speed, never the result",
+        "Time speed" => "Model seconds per second of watching; never scales Δt",
+        _ => "",
+    }
+}
+
+/// What the compiler decided about this scene.
+fn plan(ui: &mut Ui, context: &AppContext<'_>) {
+    let plan = &context.session.frame().plan;
+    if plan.motion.is_empty() {
+        return;
+    }
+    let text = format!(
+        "{} moving and {} static bodies; motion: {}; pairs: {}.{}",
+        plan.dynamic_bodies,
+        plan.static_bodies,
+        plan.motion,
+        if plan.pairs.is_empty() { "none".to_owned() } else { plan.pairs.join(", ") },
+        if plan.left_out.is_empty() {
+            String::new()
+        } else {
+            format!(" Left out, as nothing needs it: {}.", plan.left_out.join(", "))
+        }
+    );
+    ui.label(RichText::new(text).small().color(tones(ui).weak));
+}
+
+fn param_row(ui: &mut Ui, context: &AppContext<'_>, scene: &Scene, param: &ParamInfo) {
+    let value = (param.get)(&scene.params);
+    let default = (param.get)(&SimParams::default());
+    let help = format!("{}\nDefault: {} {}", param.help, numbers::significant(default, 6), param.unit);
+    ui.label(param.label).on_hover_text(&help);
+    let speed = 0.01 * value.abs().max(0.1 * default.abs()).max(1e-12);
+    let spec =
+        Number { name: param.label, value: shared([Some(value)]), range: param.range, speed, help: &help };
+    number(ui, context.outbox, &spec, |value| with(param, scene, value));
+    ui.label(RichText::new(param.unit).color(tones(ui).weak));
+    if value != default {
+        let name = format!("Reset {}", param.label);
+        let response = ui.small_button("⟲").on_hover_text("Back to the default").accessible_name(name);
+        if response.clicked() {
+            let edit = with(param, scene, default);
+            context.outbox.act(Action::Edit { edit, gesture: None });
+        }
+    }
+    ui.end_row();
+}
+
+fn with(param: &ParamInfo, scene: &Scene, value: f64) -> Edit {
+    let mut params = scene.params;
+    (param.set)(&mut params, value);
+    Edit::Params(params)
+}

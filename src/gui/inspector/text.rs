@@ -1,0 +1,47 @@
+//! Text fields that become an edit when they are left.
+
+use egui::{TextEdit, Ui};
+
+use crate::editor::Action;
+use crate::gui::context::Outbox;
+use crate::scene::Edit;
+
+/// The text being typed, and into which field.
+#[derive(Default)]
+pub struct TextFields {
+    typing: Option<(egui::Id, String)>,
+}
+
+impl TextFields {
+    /// `value` is what the field holds now; `hint` stands in an empty field.
+    pub fn show(
+        &mut self,
+        ui: &mut Ui,
+        outbox: &Outbox,
+        name: &str,
+        value: &str,
+        hint: &str,
+        edit: impl FnOnce(&str) -> Option<Edit>,
+    ) {
+        let id = ui.make_persistent_id(("text field", name));
+        let mut text = match &self.typing {
+            Some((field, text)) if *field == id => text.clone(),
+            _ => value.to_owned(),
+        };
+        let widget = TextEdit::singleline(&mut text).id(id).hint_text(hint).desired_width(f32::INFINITY);
+        let response = ui.add(widget).accessible_name(name);
+        if response.has_focus() {
+            self.typing = Some((id, text));
+        } else if response.lost_focus() {
+            self.typing = None;
+            let cancelled = ui.input(|input| input.key_pressed(egui::Key::Escape));
+            let text = text.trim();
+            if !cancelled
+                && text != value
+                && let Some(edit) = edit(text)
+            {
+                outbox.act(Action::Edit { edit, gesture: None });
+            }
+        }
+    }
+}

@@ -1,0 +1,308 @@
+//! Opens the window, and lets scripts use it: commands to carry out, a picture to take, frames to time.
+
+use std::collections::VecDeque;
+use std::fmt;
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use egui::{Context, ViewportCommand};
+
+use super::app::{App, Parts, Tab};
+use super::dialogs::NativeFileDialogs;
+use super::error::GuiError;
+use crate::editor::{Action, COMMANDS, Command, Storage};
+use crate::record::ThreadRunner;
+use crate::view::OVERLAYS;
+
+/// How the window opens.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    pub scene: Option<PathBuf>,
+    /// Points.
+    pub window_size: Option<[u32; 2]>,
+    /// Write a picture of the window, then close it.
+    pub screenshot: Option<PathBuf>,
+    /// Commands to carry out first: ids of [`COMMANDS`], `id*count`, `select:name`, `overlay:id`,
+    /// `tab:problems`, `dt:1/60`, separated by commas.
+    pub steps: Option<String>,
+    /// Turn the first view for this many frames and report.
+    pub bench_orbit: Option<u32>,
+}
+
+/// What the window measured.
+#[derive(Clone, Debug, Default)]
+pub struct Report {
+    /// From the call of [`run`] to the first frame, s.
+    pub first_frame_s: f64,
+    /// Sorted times from frame to frame while the view turned, s.
+    pub orbit_s: Vec<f64>,
+    /// Repaints in two seconds in which nothing happened.
+    pub idle_repaints: u64,
+    failure: Option<String>,
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let at = |share: f64| {
+            let index = (self.orbit_s.len().saturating_sub(1) as f64 * share) as usize;
+            1e3 * self.orbit_s.get(index).copied().unwrap_or_default()
+        };
+        write!(
+            f,
+            "first frame after {:.2} s; turning a view: median {:.1} ms, 95 % below {:.1} ms; {} repaints in 2 s \
+             of rest",
+            self.first_frame_s,
+            at(0.5),
+            at(0.95),
+            self.idle_repaints
+        )
+    }
+}
+
+/// Opens the editor and returns when it is closed.
+pub fn run(options: Options) -> Result<Report, GuiError> {
+    let called = Instant::now();
+    let report = Arc::new(Mutex::new(Report::default()));
+    let script = Script::new(&options, called, report.clone())?;
+    let scripted = options.screenshot.is_some() || options.bench_orbit.is_some();
+    let size = options.window_size.unwrap_or([1360, 860]).map(|side| side as f32);
+    let viewport = egui::ViewportBuilder::default()
+        .with_app_id("polyscene")
+        .with_title("PolyScene")
+        .with_inner_size(size)
+        .with_min_inner_size([800.0, 500.0]);
+    // a window for a script is as if it were the first one: it neither reads nor writes what was remembered
+    let persistence_path =
+        scripted.then(|| std::env::temp_dir().join("polyscene-scripted").join("no-such-file.ron"));
+    let mut native = eframe::NativeOptions {
+        viewport,
+        persist_window: options.window_size.is_none(),
+        persistence_path,
+        ..eframe::NativeOptions::default()
+    };
+    native.glow_options.vsync = !scripted;
+    let scene = options.scene;
+    let creator = move |cc: &eframe::CreationContext<'_>| {
+        let ctx = cc.egui_ctx.clone();
+        let runner = ThreadRunner::new(move || ctx.request_repaint())?;
+        let storage = if scripted { Storage::default() } else { Storage::of_user() };
+        let files = Box::new(NativeFileDialogs::default());
+        let mut app = App::new(cc, Parts { runner: Box::new(runner), storage, files, scene });
+        app.script = Some(script);
+        Ok(Box::new(app) as Box<dyn eframe::App>)
+    };
+    eframe::run_native("PolyScene", native, Box::new(creator))
+        .map_err(|error| GuiError::NoWindow(error.to_string()))?;
+    let report = report.lock().unwrap_or_else(PoisonError::into_inner).clone();
+    match report.failure {
+        Some(reason) => Err(GuiError::Script(reason)),
+        None => Ok(report),
+    }
+}
+
+/// What a script does with the window, turn by turn.
+pub(super) struct Script {
+    called: Instant,
+    steps: VecDeque<Step>,
+    screenshot: Option<PathBuf>,
+    bench: Option<Bench>,
+    wait_until: Option<Instant>,
+    report: Arc<Mutex<Report>>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Step {
+    Command(Command),
+    Select(String),
+    Dt(String),
+    Tab(Tab),
+    Event(usize),
+}
+
+struct Bench {
+    frames_left: u32,
+    last: Option<Instant>,
+    times_s: Vec<f64>,
+    /// Since when the window rests, and how often it had drawn itself.
+    resting: Option<(Instant, u64)>,
+}
+
+/// Long enough for the simulation's thread to take a command up.
+const PAUSE: Duration = Duration::from_millis(120);
+
+/// How long nothing may happen for the count of repaints.
+const REST: Duration = Duration::from_secs(2);
+
+impl Script {
+    fn new(options: &Options, called: Instant, report: Arc<Mutex<Report>>) -> Result<Self, GuiError> {
+        let mut steps = VecDeque::new();
+        let texts = options.steps.iter().flat_map(|steps| steps.split(',')).map(str::trim);
+        for text in texts.filter(|text| !text.is_empty()) {
+            let (text, count) = text.rsplit_once('*').unwrap_or((text, "1"));
+            let unknown = || GuiError::Script(format!("there is no step `{text}`"));
+            let count: usize = count.parse().map_err(|_| unknown())?;
+            let step = step(text).ok_or_else(unknown)?;
+            steps.extend(std::iter::repeat_n(step, count.min(100_000)));
+        }
+        let bench = options.bench_orbit.map(|frames_left| Bench {
+            frames_left,
+            last: None,
+            times_s: Vec::new(),
+            resting: None,
+        });
+        Ok(Self { called, steps, screenshot: options.screenshot.clone(), bench, wait_until: None, report })
+    }
+
+    fn tell(&self, change: impl FnOnce(&mut Report)) {
+        change(&mut self.report.lock().unwrap_or_else(PoisonError::into_inner));
+    }
+}
+
+fn step(text: &str) -> Option<Step> {
+    if let Some((kind, value)) = text.split_once(':') {
+        return match kind {
+            "select" => Some(Step::Select(value.to_owned())),
+            "dt" => Some(Step::Dt(value.to_owned())),
+            "event" => Some(Step::Event(value.parse().ok()?)),
+            "tab" if value == "problems" => Some(Step::Tab(Tab::Problems)),
+            "tab" if value == "events" => Some(Step::Tab(Tab::Events)),
+            "overlay" => {
+                let index = OVERLAYS.iter().position(|overlay| overlay.id == value)?;
+                Some(Step::Command(Command::ToggleOverlay(index)))
+            }
+            _ => None,
+        };
+    }
+    COMMANDS.iter().find(|row| row.id == text).map(|row| Step::Command(row.command))
+}
+
+impl App {
+    /// At the end of every turn of the window.
+    pub(super) fn run_script(&mut self, ctx: &Context) {
+        let Some(mut script) = self.script.take() else { return };
+        if self.repaints == 1 {
+            let first_frame_s = script.called.elapsed().as_secs_f64();
+            script.tell(|report| report.first_frame_s = first_frame_s);
+        }
+        if self.script_goes_on(ctx, &mut script) {
+            self.script = Some(script);
+        }
+    }
+
+    /// Whether there is something left to do.
+    fn script_goes_on(&mut self, ctx: &Context, script: &mut Script) -> bool {
+        if script.steps.is_empty() && script.screenshot.is_none() && script.bench.is_none() {
+            return false;
+        }
+        if self.session().is_busy() || script.wait_until.is_some_and(|until| Instant::now() < until) {
+            ctx.request_repaint_after(Duration::from_millis(10));
+            return true;
+        }
+        // the first turns settle the layout
+        if self.repaints < 4 {
+            ctx.request_repaint();
+            return true;
+        }
+        if let Some(step) = script.steps.pop_front() {
+            let pause = self.take_step(ctx, &step);
+            script.wait_until = pause.then(|| Instant::now() + PAUSE);
+            if script.steps.is_empty() {
+                script.wait_until = Some(Instant::now() + 3 * PAUSE);
+            }
+            ctx.request_repaint();
+            return true;
+        }
+        if let Some(bench) = &mut script.bench
+            && !self.bench(ctx, bench)
+        {
+            return true;
+        }
+        if let Some(bench) = script.bench.take() {
+            let idle = bench.resting.map_or(0, |(_, before)| self.repaints.saturating_sub(before + 1));
+            script.tell(|report| {
+                report.orbit_s = bench.times_s;
+                report.orbit_s.sort_by(f64::total_cmp);
+                report.idle_repaints = idle;
+            });
+        }
+        match script.screenshot.take() {
+            Some(path) => take_picture(ctx, path, script.report.clone()),
+            None => ctx.send_viewport_cmd(ViewportCommand::Close),
+        }
+        false
+    }
+
+    /// Whether the simulation may have got something to do.
+    fn take_step(&mut self, ctx: &Context, step: &Step) -> bool {
+        match step {
+            Step::Command(command) => self.execute(ctx, *command),
+            Step::Dt(text) => self.perform(Action::SetDt(text.clone())),
+            Step::Tab(tab) => self.show_tab(*tab),
+            Step::Select(name) => {
+                let key = self.session().scene().and_then(|scene| {
+                    let body =
+                        scene.bodies.iter().find(|body| body.display_name() == name || body.label == *name);
+                    let force = || scene.forces.iter().find(|force| force.label == *name);
+                    body.map(|body| body.key).or_else(|| force().map(|force| force.key))
+                });
+                self.perform(Action::AddToSelection(key.into_iter().collect()));
+            }
+            Step::Event(index) => {
+                let event = self.session().frame().events.get(*index).cloned();
+                self.perform(Action::ShowEvent(event));
+            }
+        }
+        matches!(step, Step::Command(_))
+    }
+
+    /// Turns the first view; `true` when all is measured.
+    fn bench(&mut self, ctx: &Context, bench: &mut Bench) -> bool {
+        let now = Instant::now();
+        if bench.frames_left > 0 {
+            if let Some(last) = bench.last.replace(now) {
+                bench.times_s.push((now - last).as_secs_f64());
+            }
+            bench.frames_left -= 1;
+            self.views.turn_first(0.02);
+            ctx.request_repaint();
+            return false;
+        }
+        match bench.resting {
+            None => {
+                bench.resting = Some((now, self.repaints));
+                ctx.request_repaint_after(REST);
+                false
+            }
+            Some((since, _)) => now - since >= REST,
+        }
+    }
+}
+
+fn take_picture(ctx: &Context, path: PathBuf, report: Arc<Mutex<Report>>) {
+    let after = ctx.clone();
+    ctx.request_screenshot(move |picture: Arc<egui::ColorImage>| {
+        let [width, height] = picture.size.map(|side| side as u32);
+        let written = image::save_buffer(&path, picture.as_raw(), width, height, image::ColorType::Rgba8);
+        if let Err(error) = written {
+            let mut report = report.lock().unwrap_or_else(PoisonError::into_inner);
+            report.failure = Some(format!("can't write {}: {error}", path.display()));
+        }
+        after.send_viewport_cmd(ViewportCommand::Close);
+    });
+    ctx.request_repaint();
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_are_read_and_unknown_ones_refused() {
+        assert_eq!(step("next_event"), Some(Step::Command(Command::NextEvent)));
+        assert_eq!(step("select:5853"), Some(Step::Select("5853".into())));
+        assert_eq!(step("tab:problems"), Some(Step::Tab(Tab::Problems)));
+        assert_eq!(step("fly"), None);
+        assert_eq!(step("overlay:nothing"), None);
+    }
+}

@@ -1,0 +1,103 @@
+//! The menu bar, made from the table of commands.
+
+use egui::{Button, Ui};
+
+use super::context::AppContext;
+use crate::editor::{COMMANDS, Command, CommandInfo, Menu, SAMPLES};
+use crate::view::OVERLAYS;
+
+/// Overlays of the active view, for the marks in the View menu.
+pub fn show(ui: &mut Ui, context: &AppContext<'_>, overlays: crate::view::OverlaySet) {
+    egui::MenuBar::new().ui(ui, |ui| {
+        for menu in Menu::ALL {
+            ui.menu_button(menu.label(), |ui| {
+                ui.set_min_width(230.0);
+                rows(ui, context, menu);
+                match menu {
+                    Menu::File => files(ui, context),
+                    Menu::View => overlay_menu(ui, context, overlays),
+                    _ => {}
+                }
+            });
+        }
+    });
+}
+
+fn rows(ui: &mut Ui, context: &AppContext<'_>, menu: Menu) {
+    let mut group = None;
+    for row in COMMANDS.iter().filter(|row| row.menu == menu) {
+        if group.is_some_and(|group| group != row.group) {
+            ui.separator();
+        }
+        group = Some(row.group);
+        if row.command == Command::Quit {
+            // what opens files stands together, above the way out
+            continue;
+        }
+        entry(ui, context, row);
+    }
+}
+
+/// One entry: label, shortcut, and in the tooltip what it does or why it can't.
+pub fn entry(ui: &mut Ui, context: &AppContext<'_>, row: &CommandInfo) {
+    let enabled = (row.enabled)(context.session).is_ok();
+    let mut button = Button::new(row.label_now(context.session));
+    if let Some(shortcut) = row.shortcuts.first() {
+        button = button.shortcut_text(shortcut.to_string());
+    }
+    let response = ui.add_enabled(enabled, button);
+    let response = response.on_hover_text(row.help);
+    let response =
+        if enabled { response } else { response.on_disabled_hover_text(row.tooltip(context.session)) };
+    if response.clicked() {
+        context.outbox.command(row.command);
+        ui.close();
+    }
+}
+
+fn files(ui: &mut Ui, context: &AppContext<'_>) {
+    let recent = &context.session.settings().recent;
+    ui.add_enabled_ui(!recent.is_empty(), |ui| {
+        ui.menu_button("Open recent", |ui| recent_files(ui, context))
+            .response
+            .on_disabled_hover_text("No file was opened or saved yet");
+    });
+    ui.menu_button("Samples", |ui| samples(ui, context));
+    ui.separator();
+    if let Some(quit) = crate::editor::info(Command::Quit) {
+        entry(ui, context, quit);
+    }
+}
+
+/// The files opened last, by name; the tooltip has the path.
+pub fn recent_files(ui: &mut Ui, context: &AppContext<'_>) {
+    for (index, path) in context.session.settings().recent.iter().enumerate() {
+        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+        let response = ui.button(name.as_ref()).on_hover_text(path.display().to_string());
+        if response.clicked() {
+            context.outbox.command(Command::OpenRecent(index));
+            ui.close();
+        }
+    }
+}
+
+fn samples(ui: &mut Ui, context: &AppContext<'_>) {
+    for (index, sample) in SAMPLES.iter().enumerate() {
+        if ui.button(sample.title).on_hover_text(sample.shows).clicked() {
+            context.outbox.command(Command::OpenSample(index));
+            ui.close();
+        }
+    }
+}
+
+/// The overlays of a view, with marks.
+pub fn overlay_menu(ui: &mut Ui, context: &AppContext<'_>, overlays: crate::view::OverlaySet) {
+    ui.menu_button("Overlays of the active view", |ui| {
+        for (index, overlay) in OVERLAYS.iter().enumerate() {
+            let mut on = overlays.contains(overlay.id);
+            if ui.checkbox(&mut on, overlay.label).on_hover_text(overlay.help).changed() {
+                context.outbox.command(Command::ToggleOverlay(index));
+            }
+        }
+    });
+}

@@ -1,0 +1,105 @@
+//! The list of problems: where, what, what to do, and a button where there is a way out.
+
+use egui::{RichText, Sense, Ui};
+use egui_extras::{Column, TableBuilder};
+
+use super::colors::tones;
+use super::context::{AppContext, Message};
+use super::theme::ROW_HEIGHT;
+use super::widgets::{cell, mono, severity_icon};
+use crate::editor::{self, Action, Problem, ProblemSource};
+use crate::scene::Severity;
+
+/// Keeps the list, which is made again only when document or frame changed.
+#[derive(Default)]
+pub struct Problems {
+    of: Option<(u64, u64, u64)>,
+    list: Vec<Problem>,
+}
+
+impl Problems {
+    pub fn refresh(&mut self, context: &AppContext<'_>) {
+        let session = context.session;
+        let of = (session.opened_count(), session.document_state(), session.frame().revision);
+        if self.of != Some(of) {
+            self.list = session.problems();
+            self.of = Some(of);
+        }
+    }
+
+    pub fn errors(&self) -> usize {
+        self.list.iter().filter(|problem| problem.severity == Severity::Error).count()
+    }
+
+    pub fn warnings(&self) -> usize {
+        self.list.len() - self.errors()
+    }
+
+    pub fn show(&mut self, ui: &mut Ui, context: &AppContext<'_>) {
+        if self.list.is_empty() {
+            ui.add_space(8.0);
+            let text =
+                RichText::new("No problems: the scene can be simulated and saved.").color(tones(ui).weak);
+            ui.label(text);
+            return;
+        }
+        let table = TableBuilder::new(ui)
+            .id_salt("problems")
+            .striped(true)
+            .sense(Sense::click())
+            .column(Column::exact(18.0))
+            .column(Column::initial(64.0).resizable(true))
+            .column(Column::initial(430.0).resizable(true).clip(true))
+            .column(Column::remainder().clip(true))
+            .column(Column::initial(130.0));
+        table
+            .header(ROW_HEIGHT, |mut header| {
+                for title in ["", "Place", "Problem", "What to do", ""] {
+                    cell(&mut header, RichText::new(title).small().weak(), "");
+                }
+            })
+            .body(|body| {
+                body.rows(ROW_HEIGHT, self.list.len(), |mut row| {
+                    let Some(problem) = self.list.get(row.index()) else { return };
+                    row.set_selected(
+                        problem.key.is_some_and(|key| context.session.selection().contains(key)),
+                    );
+                    row.col(|ui| drop(severity_icon(ui, problem.severity == Severity::Error)));
+                    cell(&mut row, mono(place(problem)), &problem.path);
+                    cell(&mut row, RichText::new(&problem.message), &problem.message);
+                    cell(&mut row, RichText::new(&problem.hint).weak(), &problem.hint);
+                    row.col(|ui| fix_button(ui, context, problem));
+                    click(&row.response(), context, problem);
+                });
+            });
+    }
+}
+
+fn place(problem: &Problem) -> String {
+    match (problem.position, problem.source) {
+        (Some((line, column)), _) => format!("{line}:{column}"),
+        (None, ProblemSource::Run) => "run".to_owned(),
+        (None, ProblemSource::Simulation) => "start".to_owned(),
+        (None, ProblemSource::Document) => "file".to_owned(),
+    }
+}
+
+fn fix_button(ui: &mut Ui, context: &AppContext<'_>, problem: &Problem) {
+    let Some(info) = problem.fix.and_then(editor::info) else { return };
+    if ui.small_button(info.label).on_hover_text(info.help).clicked() {
+        context.outbox.command(info.command);
+    }
+}
+
+fn click(response: &egui::Response, context: &AppContext<'_>, problem: &Problem) {
+    let Some(key) = problem.key.filter(|key| context.shown.is_some_and(|shown| shown.item(*key).is_some()))
+    else {
+        return;
+    };
+    if response.clicked() {
+        context.outbox.act(Action::Select(vec![key]));
+    }
+    if response.double_clicked() {
+        context.outbox.send(Message::Frame(vec![key]));
+    }
+}

@@ -1,0 +1,94 @@
+//! The status bar: where the simulation stands, how quick and how exact it is.
+
+use egui::{RichText, Ui};
+
+use super::colors::tones;
+use super::context::AppContext;
+use super::numbers;
+use super::widgets::mono;
+use crate::record::Frame;
+
+/// What the window itself knows.
+pub struct Pace {
+    /// Seconds from one repaint to its end.
+    pub frame_s: f64,
+}
+
+pub fn show(ui: &mut Ui, context: &AppContext<'_>, pace: &Pace) {
+    let frame = context.session.frame();
+    ui.horizontal_centered(|ui| {
+        ui.spacing_mut().item_spacing.x = 5.0;
+        item(ui, "t", &format!("{:.6} s", frame.time), 92.0, "Model time");
+        item(ui, "Δt", &step_text(frame), 104.0, "Number of the Δt looked at, and how far it is open");
+        item(
+            ui,
+            "event",
+            &event_text(frame),
+            74.0,
+            "Events of this Δt so far; in all since the start in brackets",
+        );
+        item(ui, "bodies", &body_text(frame), 62.0, "Moving + static bodies in the simulation");
+        let per_s = numbers::significant(frame.events_per_s, 3);
+        item(ui, "events/s", &per_s, 48.0, "Events per second of computing, smoothed");
+        residuals(ui, frame);
+        let overlap = if frame.worst_overlap > 0.0 {
+            format!("{} m", numbers::tiny(frame.worst_overlap))
+        } else {
+            "0".to_owned()
+        };
+        item(ui, "overlap", &overlap, 48.0, "Deepest overlap of any two bodies now, by looking at them all");
+        item(ui, "step", &numbers::duration(frame.step_wall_s), 56.0, "Computing time of the last Δt");
+        item(ui, "frame", &numbers::duration(pace.frame_s), 56.0, "Time the window took to draw itself last");
+    });
+}
+
+fn residuals(ui: &mut Ui, frame: &Frame) {
+    let energy = frame.energy.and_then(|energy| energy.residual);
+    let text = energy.map_or("–".to_owned(), numbers::tiny);
+    let total = frame.energy.and_then(|energy| energy.total);
+    let help = format!(
+        "Energy residual: change of the total energy that impacts, drag and edits do not explain, over \
+         the energy at the start.{}",
+        total.map_or(String::new(), |total| format!(" Total energy: {} J.", numbers::significant(total, 9))),
+    );
+    item(ui, "ΔE", &text, 48.0, &help);
+    let momentum = frame.momentum.as_ref();
+    let text = momentum.map_or("–".to_owned(), |momentum| numbers::tiny(momentum.residual));
+    let help = "Momentum residual: change of the momentum that forces and static bodies do not explain, \
+                over the largest sum of momenta so far";
+    item(ui, "Δp", &text, 48.0, help);
+}
+
+fn item(ui: &mut Ui, name: &str, value: &str, width: f32, help: &str) {
+    let weak = tones(ui).weak;
+    let response = ui
+        .scope(|ui| {
+            ui.label(RichText::new(name).small().color(weak));
+            let (rect, _) = ui.allocate_exact_size(egui::vec2(width, 16.0), egui::Sense::hover());
+            let mut inner = ui.new_child(
+                egui::UiBuilder::new()
+                    .max_rect(rect)
+                    .layout(egui::Layout::left_to_right(egui::Align::Center)),
+            );
+            inner.label(mono(value).size(11.5));
+        })
+        .response;
+    response.on_hover_text(help);
+}
+
+fn step_text(frame: &Frame) -> String {
+    match frame.open_step {
+        Some((from, to)) if to > from => {
+            format!("{} ({:.0} %)", frame.dt_index, 100.0 * (frame.time - from) / (to - from))
+        }
+        _ => numbers::count(frame.dt_index),
+    }
+}
+
+fn event_text(frame: &Frame) -> String {
+    format!("{} [{}]", numbers::count(frame.events.len() as u64), numbers::count(frame.event_count))
+}
+
+fn body_text(frame: &Frame) -> String {
+    format!("{}+{}", frame.plan.dynamic_bodies, frame.plan.static_bodies)
+}

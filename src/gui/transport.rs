@@ -1,0 +1,166 @@
+//! The tool bar: transport, Δt, speed, undo, and how many views there are.
+
+use egui::{RichText, TextEdit, Ui};
+
+use super::colors::tones;
+use super::context::AppContext;
+use super::viewport::Layout;
+use super::widgets::{command_button, icon_button};
+use super::{icons, numbers};
+use crate::editor::{self, Action, Command};
+use crate::record::RunState;
+
+const TRANSPORT: [Command; 7] = [
+    Command::Reset,
+    Command::StepBack,
+    Command::EventBack,
+    Command::PlayPause,
+    Command::NextEvent,
+    Command::FinishStep,
+    Command::StepForward,
+];
+
+/// Speeds offered by name; any other is reached with + and -.
+const SPEEDS: [(f64, &str); 9] = [
+    (1.0 / 64.0, "1/64 ×"),
+    (1.0 / 16.0, "1/16 ×"),
+    (0.25, "1/4 ×"),
+    (0.5, "1/2 ×"),
+    (1.0, "1 ×"),
+    (2.0, "2 ×"),
+    (4.0, "4 ×"),
+    (16.0, "16 ×"),
+    (64.0, "64 ×"),
+];
+
+/// Keeps what is being typed into Δt.
+#[derive(Default)]
+pub struct Transport {
+    dt_text: String,
+    typing: bool,
+}
+
+impl Transport {
+    pub fn show(&mut self, ui: &mut Ui, context: &AppContext<'_>, layout: Layout) {
+        ui.horizontal_centered(|ui| {
+            ui.spacing_mut().item_spacing.x = 3.0;
+            for command in TRANSPORT {
+                command_button(ui, context, command);
+            }
+            ui.add_space(6.0);
+            self.dt_field(ui, context);
+            ui.add_space(6.0);
+            speed_menu(ui, context);
+            ui.add_space(8.0);
+            state(ui, context);
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                view_buttons(ui, context, layout);
+                ui.separator();
+                for command in [Command::AddGravityPoint, Command::AddGravityPlane, Command::AddPlane] {
+                    command_button(ui, context, command);
+                }
+                command_button(ui, context, Command::AddSphereStatic);
+                command_button(ui, context, Command::AddSphereDynamic);
+                ui.separator();
+                command_button(ui, context, Command::Redo);
+                command_button(ui, context, Command::Undo);
+                ui.separator();
+            });
+        });
+    }
+
+    fn dt_field(&mut self, ui: &mut Ui, context: &AppContext<'_>) {
+        let playback = context.session.playback();
+        let help = "Length of one step in seconds: a number or a fraction, such as 0.01 or 1/60.\n\
+                    It only says where to look: events and states are the same for every Δt.";
+        let label = ui.label("Δt").on_hover_text(help);
+        if !self.typing {
+            playback.dt_text().clone_into(&mut self.dt_text);
+        }
+        let valid = editor::parse_number(&self.dt_text).is_some_and(|dt| dt > 0.0);
+        let color = if valid { ui.visuals().text_color() } else { tones(ui).error };
+        let edit = TextEdit::singleline(&mut self.dt_text)
+            .font(egui::TextStyle::Monospace)
+            .text_color(color)
+            .desired_width(64.0);
+        let response = ui.add(edit).labelled_by(label.id).on_hover_text(help);
+        ui.label(RichText::new("s").weak());
+        self.typing = response.has_focus();
+        if response.lost_focus()
+            && !ui.input(|input| input.key_pressed(egui::Key::Escape))
+            && self.dt_text.trim() != playback.dt_text()
+        {
+            context.outbox.act(Action::SetDt(self.dt_text.clone()));
+        }
+    }
+}
+
+fn speed_menu(ui: &mut Ui, context: &AppContext<'_>) {
+    let speed = context.session.playback().speed();
+    let named = SPEEDS.iter().find(|(value, _)| *value == speed).map(|(_, name)| (*name).to_owned());
+    let text = named.unwrap_or_else(|| format!("{} ×", numbers::significant(speed, 3)));
+    let label = ui.label("Speed");
+    let response = egui::ComboBox::from_id_salt("speed")
+        .selected_text(text)
+        .width(68.0)
+        .show_ui(ui, |ui| {
+            for (value, name) in SPEEDS {
+                if ui.selectable_label(value == speed, name).clicked() {
+                    context.outbox.act(Action::SetSpeed(value));
+                }
+            }
+        })
+        .response
+        .labelled_by(label.id);
+    let time_speed = context.scene().map_or(1.0, |scene| scene.time_speed);
+    response.on_hover_text(format!(
+        "Model seconds per second of watching, times the scene's own time speed ({}). Keys + and -.\n\
+         Playing takes no larger Δt when the machine can't follow; it becomes slower.",
+        numbers::significant(time_speed, 6)
+    ));
+}
+
+/// What the simulation is doing, when that is not simply waiting; and what waits for a reset.
+fn state(ui: &mut Ui, context: &AppContext<'_>) {
+    let tones = tones(ui);
+    let frame = context.session.frame();
+    let (text, color, help) = match frame.state {
+        RunState::Playing => (
+            format!("playing {} ×", numbers::significant(frame.real_speed, 2)),
+            tones.good,
+            "Model seconds per second that are really reached",
+        ),
+        RunState::Busy => ("working…".to_owned(), tones.accent, "Space stops after the current event"),
+        RunState::Faulted => ("stopped on a fault".to_owned(), tones.error, "See Problems"),
+        RunState::Empty => ("no simulation".to_owned(), tones.warning, "The scene has errors, see Problems"),
+        RunState::Paused => (String::new(), tones.weak, ""),
+    };
+    if !text.is_empty() {
+        ui.label(RichText::new(text).color(color)).on_hover_text(help);
+    }
+    if context.session.needs_reset() {
+        let button = egui::Button::new(RichText::new("⚠ Reset to apply").color(tones.warning));
+        let help = "The scene was edited in a way that the running simulation can't take on: positions, \
+                    velocities, new moving bodies, map or settings. Reset starts the edited scene (R).";
+        if ui.add(button).on_hover_text(help).clicked() {
+            context.outbox.command(Command::Reset);
+        }
+    }
+}
+
+fn view_buttons(ui: &mut Ui, context: &AppContext<'_>, layout: Layout) {
+    let choices = [
+        (Command::ShowFourViews, Layout::Four, 4),
+        (Command::ShowTwoViews, Layout::Two, 2),
+        (Command::ShowOneView, Layout::One, 1),
+    ];
+    for (command, of, panes) in choices {
+        let Some(info) = editor::info(command) else { continue };
+        let response = icon_button(ui, info.label, layout == of, |painter, square, color| {
+            icons::paint_panes(painter, square, color, panes);
+        });
+        if response.on_hover_text(info.tooltip(context.session)).clicked() {
+            context.outbox.command(command);
+        }
+    }
+}

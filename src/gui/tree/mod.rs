@@ -1,0 +1,202 @@
+//! The scene tree: map, simulation, forces and bodies in groups, with filter, marks and renaming.
+
+mod rows;
+
+use egui::{RichText, ScrollArea, TextEdit, Ui};
+
+use super::colors::tones;
+use super::context::{AppContext, Message, Shown};
+use super::theme::ROW_HEIGHT;
+use super::widgets::panel_heading;
+use crate::editor::{Action, Command};
+use crate::scene::{BodyChange, Edit, ForceChange, NodeKey};
+pub use rows::force_kind;
+use rows::{Group, Row, collect};
+
+#[derive(Default)]
+pub struct Tree {
+    filter: String,
+    wants_filter: bool,
+    closed: Vec<Group>,
+    renaming: Option<Renaming>,
+    /// Where a range of rows begins, for Shift and click.
+    anchor: Option<NodeKey>,
+    /// The selection that was scrolled to last.
+    scrolled_to: Option<NodeKey>,
+    known: Known,
+}
+
+/// The rows, made again only when something they depend on has changed.
+#[derive(Default)]
+struct Known {
+    of: Option<(u64, String, Vec<Group>)>,
+    rows: Vec<Row>,
+}
+
+struct Renaming {
+    key: NodeKey,
+    text: String,
+    started: bool,
+}
+
+impl Tree {
+    pub fn find(&mut self) {
+        self.wants_filter = true;
+    }
+
+    pub fn rename(&mut self, key: NodeKey, context: &AppContext<'_>) {
+        let Some(shown) = context.shown else { return };
+        let body = shown.body(key).map(|body| body.name.clone());
+        let name = body.or_else(|| shown.force(key).map(|force| force.name.clone()));
+        if let Some(name) = name {
+            self.renaming = Some(Renaming { key, text: name.unwrap_or_default(), started: false });
+        }
+    }
+
+    pub fn show(&mut self, ui: &mut Ui, context: &AppContext<'_>) {
+        panel_heading(ui, "Scene", |_| {});
+        self.filter_field(ui);
+        let Some(shown) = context.shown else {
+            ui.label(RichText::new("  The file has errors; see Problems.").color(tones(ui).weak));
+            return;
+        };
+        self.refresh(shown);
+        let rows = std::mem::take(&mut self.known.rows);
+        let target = self.row_to_scroll_to(&rows, context);
+        let mut area = ScrollArea::vertical().auto_shrink([false, false]).id_salt("tree");
+        if let Some(index) = target {
+            let pitch = ROW_HEIGHT;
+            let height = ui.available_height();
+            area = area.vertical_scroll_offset((index as f32 * pitch - 0.4 * height).max(0.0));
+        }
+        ui.spacing_mut().item_spacing.y = 0.0;
+        let response = area.show_rows(ui, ROW_HEIGHT, rows.len(), |ui, range| {
+            for row in rows.get(range).unwrap_or_default() {
+                self.show_row(ui, context, shown, &rows, row);
+            }
+        });
+        // below the rows: a click there selects nothing
+        let rest = egui::Rect::from_min_max(
+            egui::pos2(ui.min_rect().left(), response.inner_rect.top() + response.content_size.y),
+            response.inner_rect.max,
+        );
+        if rest.is_positive() {
+            let free = ui.interact(rest, ui.scope_id().with("below rows"), egui::Sense::click());
+            if free.clicked() {
+                context.outbox.command(Command::SelectNone);
+            }
+        }
+        self.known.rows = rows;
+    }
+
+    fn filter_field(&mut self, ui: &mut Ui) {
+        egui::Frame::new().inner_margin(egui::Margin::symmetric(6, 4)).show(ui, |ui| {
+            ui.horizontal(|ui| {
+                let width = ui.available_width() - if self.filter.is_empty() { 0.0 } else { 26.0 };
+                let edit = TextEdit::singleline(&mut self.filter)
+                    .hint_text("Filter by name, ID or kind")
+                    .desired_width(width);
+                let response = ui.add(edit).accessible_name("Filter");
+                let response = response.on_hover_text("Shows rows that hold all these words (Ctrl+F)");
+                if std::mem::take(&mut self.wants_filter) {
+                    response.request_focus();
+                }
+                if !self.filter.is_empty() && ui.small_button("✖").on_hover_text("Clear the filter").clicked()
+                {
+                    self.filter.clear();
+                }
+            });
+        });
+    }
+
+    fn refresh(&mut self, shown: &Shown) {
+        let of = (shown.revision, self.filter.clone(), self.closed.clone());
+        if self.known.of.as_ref() != Some(&of) {
+            self.known.rows = collect(&shown.scene, &self.filter, &self.closed);
+            self.known.of = Some(of);
+        }
+    }
+
+    /// The row of a selection made elsewhere.
+    fn row_to_scroll_to(&mut self, rows: &[Row], context: &AppContext<'_>) -> Option<usize> {
+        let primary = context.session.selection().primary();
+        if primary == self.scrolled_to {
+            return None;
+        }
+        self.scrolled_to = primary;
+        rows.iter().position(|row| row.key().is_some() && row.key() == primary)
+    }
+
+    /// All rows between two keys, in the order of the tree.
+    fn range(rows: &[Row], from: NodeKey, to: NodeKey) -> Vec<NodeKey> {
+        let place = |key| rows.iter().position(|row| row.key() == Some(key));
+        let (Some(a), Some(b)) = (place(from), place(to)) else { return vec![to] };
+        let mut keys: Vec<NodeKey> =
+            rows.get(a.min(b)..=a.max(b)).unwrap_or_default().iter().filter_map(Row::key).collect();
+        if b < a {
+            keys.reverse();
+        }
+        keys
+    }
+
+    fn click(&mut self, ui: &Ui, context: &AppContext<'_>, rows: &[Row], key: NodeKey) {
+        let modifiers = ui.input(|input| input.modifiers);
+        // the row is in sight already
+        self.scrolled_to = Some(key);
+        match self.anchor.filter(|_| modifiers.shift) {
+            Some(anchor) => {
+                let keys = Self::range(rows, anchor, key);
+                self.scrolled_to = keys.last().copied();
+                context.outbox.act(if modifiers.command {
+                    Action::AddToSelection(keys)
+                } else {
+                    Action::Select(keys)
+                });
+            }
+            None => {
+                self.anchor = Some(key);
+                context.outbox.act(if modifiers.command {
+                    Action::ToggleSelected(key)
+                } else {
+                    Action::Select(vec![key])
+                });
+            }
+        }
+    }
+
+    /// The field that takes the place of a name while it is typed.
+    fn rename_field(&mut self, ui: &mut Ui, context: &AppContext<'_>, shown: &Shown) {
+        let Some(renaming) = &mut self.renaming else { return };
+        let edit = TextEdit::singleline(&mut renaming.text)
+            .hint_text("Name")
+            .desired_width(ui.available_width() - 46.0)
+            .margin(egui::Margin::symmetric(4, 0));
+        let response = ui.add(edit).accessible_name("New name");
+        if !std::mem::replace(&mut renaming.started, true) {
+            response.request_focus();
+        }
+        if response.lost_focus() {
+            let cancelled = ui.input(|input| input.key_pressed(egui::Key::Escape));
+            let text = renaming.text.trim();
+            let name = (!text.is_empty()).then(|| text.to_owned());
+            let edit = rename_edit(shown, renaming.key, name).filter(|_| !cancelled);
+            if let Some(edit) = edit {
+                context.outbox.act(Action::Edit { edit, gesture: None });
+            }
+            self.renaming = None;
+        }
+    }
+}
+
+fn rename_edit(shown: &Shown, key: NodeKey, name: Option<String>) -> Option<Edit> {
+    if let Some(body) = shown.body(key) {
+        return (body.name != name).then_some(Edit::Body { key, change: BodyChange::Name(name) });
+    }
+    let force = shown.force(key)?;
+    (force.name != name).then_some(Edit::Force { key, change: ForceChange::Name(name) })
+}
+
+/// Double click on a row.
+fn look_at(context: &AppContext<'_>, key: NodeKey) {
+    context.outbox.send(Message::Frame(vec![key]));
+}

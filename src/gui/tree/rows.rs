@@ -1,0 +1,347 @@
+//! The rows of the tree: which there are, and what each looks like.
+
+use egui::{Align2, FontId, Rect, Role, Sense, Ui, WidgetInfo, pos2, vec2};
+
+use super::{Tree, look_at};
+use crate::editor::{self, Action, Command, Place};
+use crate::gui::colors::{color32, tones};
+use crate::gui::context::{AppContext, Message, Shown, force_name};
+use crate::gui::theme::ROW_HEIGHT;
+use crate::gui::{icons, menu, numbers, widgets};
+use crate::scene::{Body, BodyChange, Edit, Force, ForceChange, ForceKind, NodeKey, Scene, Shape};
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Group {
+    Forces,
+    Dynamic,
+    Static,
+}
+
+impl Group {
+    fn label(self) -> &'static str {
+        match self {
+            Self::Forces => "Forces",
+            Self::Dynamic => "Moving bodies",
+            Self::Static => "Static bodies",
+        }
+    }
+}
+
+pub enum Row {
+    Place(Place),
+    Group { group: Group, count: usize, shown: usize, open: bool },
+    Body { index: usize, key: NodeKey },
+    Force { index: usize, key: NodeKey },
+}
+
+impl Row {
+    pub fn key(&self) -> Option<NodeKey> {
+        match self {
+            Self::Body { key, .. } | Self::Force { key, .. } => Some(*key),
+            Self::Place(_) | Self::Group { .. } => None,
+        }
+    }
+}
+
+/// All rows that the filter lets through.
+pub fn collect(scene: &Scene, filter: &str, closed: &[Group]) -> Vec<Row> {
+    let words: Vec<String> = filter.split_whitespace().map(str::to_lowercase).collect();
+    let mut rows = Vec::new();
+    if words.is_empty() {
+        rows.extend([Row::Place(Place::Map), Row::Place(Place::Simulation)]);
+    }
+    let forces = scene.forces.iter().enumerate();
+    let found: Vec<Row> = forces
+        .filter(|(_, force)| matches(&words, &[force_name(force), &force.label, force_kind(force)]))
+        .map(|(index, force)| Row::Force { index, key: force.key })
+        .collect();
+    add_group(&mut rows, Group::Forces, scene.forces.len(), found, &words, closed);
+    for (group, dynamic) in [(Group::Dynamic, true), (Group::Static, false)] {
+        let of_group =
+            || scene.bodies.iter().enumerate().filter(move |(_, body)| body.is_dynamic() == dynamic);
+        let found = of_group()
+            .filter(|(_, body)| matches(&words, &[body.display_name(), &body.label, body_kind(body)]))
+            .map(|(index, body)| Row::Body { index, key: body.key })
+            .collect();
+        add_group(&mut rows, group, of_group().count(), found, &words, closed);
+    }
+    rows
+}
+
+fn add_group(
+    rows: &mut Vec<Row>,
+    group: Group,
+    count: usize,
+    found: Vec<Row>,
+    words: &[String],
+    closed: &[Group],
+) {
+    // a filter shows what it finds, also in groups that are closed
+    let open = !words.is_empty() || !closed.contains(&group);
+    rows.push(Row::Group { group, count, shown: found.len(), open });
+    if open {
+        rows.extend(found);
+    }
+}
+
+fn matches(words: &[String], texts: &[&str]) -> bool {
+    words.iter().all(|word| texts.iter().any(|text| text.to_lowercase().contains(word.as_str())))
+}
+
+pub fn body_kind(body: &Body) -> &'static str {
+    match body.shape {
+        Shape::Sphere { .. } => "sphere",
+        Shape::Plane { .. } => "plane",
+        Shape::Unbuilt { .. } => "not simulated",
+    }
+}
+
+pub fn force_kind(force: &Force) -> &'static str {
+    match force.kind {
+        ForceKind::GravityPlane { .. } => "uniform gravity",
+        ForceKind::GravityPoint { .. } => "point gravity",
+        ForceKind::Drag { .. } => "air drag",
+    }
+}
+
+impl Tree {
+    pub(super) fn show_row(
+        &mut self,
+        ui: &mut Ui,
+        context: &AppContext<'_>,
+        shown: &Shown,
+        rows: &[Row],
+        row: &Row,
+    ) {
+        match row {
+            Row::Place(place) => place_row(ui, context, *place),
+            Row::Group { group, count, shown, open } => {
+                if group_row(ui, *group, *count, *shown, *open) {
+                    match self.closed.iter().position(|closed| closed == group) {
+                        Some(index) => drop(self.closed.remove(index)),
+                        None => self.closed.push(*group),
+                    }
+                }
+            }
+            Row::Body { index, key } => {
+                if let Some(body) = shown.scene.bodies.get(*index) {
+                    let detail = body_detail(body);
+                    let marks = Marks { hidden: body.hidden, locked: body.locked };
+                    let looks = Looks { name: body.display_name(), detail: &detail, round: true, marks };
+                    self.item_row(ui, context, shown, rows, *key, &looks);
+                }
+            }
+            Row::Force { index, key } => {
+                if let Some(force) = shown.scene.forces.get(*index) {
+                    let marks = Marks { hidden: force.hidden, locked: force.locked };
+                    let looks =
+                        Looks { name: force_name(force), detail: force_kind(force), round: false, marks };
+                    self.item_row(ui, context, shown, rows, *key, &looks);
+                }
+            }
+        }
+    }
+
+    fn item_row(
+        &mut self,
+        ui: &mut Ui,
+        context: &AppContext<'_>,
+        shown: &Shown,
+        rows: &[Row],
+        key: NodeKey,
+        looks: &Looks<'_>,
+    ) {
+        let selected = context.session.selection().contains(key);
+        let (rect, response) = row_space(ui, selected, looks.name);
+        let faded = if looks.marks.hidden { 0.5 } else { 1.0 };
+        if let Some(color) = shown.color(key, context.palette()) {
+            let color = color32(color).gamma_multiply(faded);
+            let chip = Rect::from_center_size(pos2(rect.left() + 28.0, rect.center().y), vec2(10.0, 10.0));
+            let rounding = if looks.round { 5.0 } else { 1.0 };
+            ui.painter().rect_filled(chip, rounding, color);
+        }
+        let name_rect = Rect::from_min_max(pos2(rect.left() + 40.0, rect.top()), rect.max);
+        if self.renaming.as_ref().is_some_and(|renaming| renaming.key == key) {
+            let builder = egui::UiBuilder::new().max_rect(name_rect);
+            ui.scope_builder(builder, |ui| {
+                ui.horizontal_centered(|ui| self.rename_field(ui, context, shown));
+            });
+        } else {
+            draw_name(ui, name_rect, looks, selected, faded);
+        }
+        mark_buttons(ui, rect, context, shown, key, looks, response.contains_pointer());
+        response.context_menu(|ui| context_menu(ui, context));
+        if response.clicked() {
+            self.click(ui, context, rows, key);
+        }
+        if response.secondary_clicked() && !selected {
+            self.click(ui, context, rows, key);
+        }
+        if response.double_clicked() {
+            if response.interact_pointer_pos().is_some_and(|at| at.x > rect.left() + 38.0) {
+                context.outbox.send(Message::Rename(key));
+            } else {
+                look_at(context, key);
+            }
+        }
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Marks {
+    hidden: bool,
+    locked: bool,
+}
+
+struct Looks<'a> {
+    name: &'a str,
+    detail: &'a str,
+    round: bool,
+    marks: Marks,
+}
+
+fn body_detail(body: &Body) -> String {
+    match body.shape {
+        Shape::Sphere { radius } => format!("r {} m", numbers::significant(radius, 4)),
+        Shape::Plane { half_x, half_y } => {
+            format!("{} × {} m", numbers::significant(2.0 * half_x, 4), numbers::significant(2.0 * half_y, 4))
+        }
+        Shape::Unbuilt { ref element } => format!("{element}, not simulated"),
+    }
+}
+
+fn row_space(ui: &mut Ui, selected: bool, name: &str) -> (Rect, egui::Response) {
+    let size = vec2(ui.available_width(), ROW_HEIGHT);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    let visuals = ui.visuals();
+    if selected {
+        ui.painter().rect_filled(rect, 0.0, visuals.selection.bg_fill);
+    } else if response.hovered() {
+        ui.painter().rect_filled(rect, 0.0, visuals.widgets.inactive.weak_bg_fill);
+    }
+    response.widget_info(|| WidgetInfo::selected(Role::TreeItem, true, selected, name));
+    (rect, response)
+}
+
+fn draw_name(ui: &Ui, rect: Rect, looks: &Looks<'_>, selected: bool, faded: f32) {
+    let painter = ui.painter_at(rect.with_max_x(rect.right() - 44.0));
+    let color = if selected { ui.visuals().selection.stroke.color } else { ui.visuals().text_color() };
+    let font = FontId::proportional(13.0);
+    let at = pos2(rect.left(), rect.center().y);
+    let drawn = painter.text(at, Align2::LEFT_CENTER, looks.name, font, color.gamma_multiply(faded));
+    let weak = tones(ui).weak.gamma_multiply(faded);
+    let at = pos2(drawn.right() + 8.0, at.y);
+    painter.text(at, Align2::LEFT_CENTER, looks.detail, FontId::proportional(11.0), weak);
+}
+
+/// Eye and lock at the right: shown when they say something, or under the pointer.
+fn mark_buttons(
+    ui: &mut Ui,
+    row: Rect,
+    context: &AppContext<'_>,
+    shown: &Shown,
+    key: NodeKey,
+    looks: &Looks<'_>,
+    pointed: bool,
+) {
+    let Marks { hidden, locked } = looks.marks;
+    for (column, is_eye, on) in [(0.0, true, hidden), (1.0, false, locked)] {
+        let center = pos2(row.right() - 13.0 - 19.0 * column, row.center().y);
+        let rect = Rect::from_center_size(center, vec2(18.0, ROW_HEIGHT));
+        let response = ui.interact(rect, ui.scope_id().with(("mark", key, is_eye)), Sense::click());
+        let verb = match (is_eye, on) {
+            (true, false) => "Hide",
+            (true, true) => "Show",
+            (false, false) => "Lock",
+            (false, true) => "Unlock",
+        };
+        widgets::name_button(ui, &response, &format!("{verb} {}", looks.name), on);
+        if pointed || on || response.hovered() || response.has_focus() {
+            let color = if response.hovered() { tones(ui).strong } else { tones(ui).weak };
+            let square = Rect::from_center_size(center, vec2(13.0, 13.0));
+            if is_eye {
+                icons::paint_eye(ui.painter(), square, color, on);
+            } else {
+                icons::paint_lock(ui.painter(), square, color, on);
+            }
+        }
+        let help = if is_eye {
+            "in the views; it always takes part in the simulation"
+        } else {
+            "against moving and deleting"
+        };
+        if response.on_hover_text(format!("{verb} {help}")).clicked() {
+            let (of_body, of_force) = if is_eye {
+                (BodyChange::Hidden(!on), ForceChange::Hidden(!on))
+            } else {
+                (BodyChange::Locked(!on), ForceChange::Locked(!on))
+            };
+            let edit = match shown.body(key) {
+                Some(_) => Edit::Body { key, change: of_body },
+                None => Edit::Force { key, change: of_force },
+            };
+            context.outbox.act(Action::Edit { edit, gesture: None });
+        }
+    }
+}
+
+fn place_row(ui: &mut Ui, context: &AppContext<'_>, place: Place) {
+    let Some(scene) = context.scene() else { return };
+    let (name, detail) = match place {
+        Place::Map => {
+            let [x, y, z] = scene.map.size.to_array().map(|side| numbers::significant(side, 4));
+            ("Map", format!("{x} × {y} × {z} m"))
+        }
+        Place::Simulation => {
+            ("Simulation", format!("time speed {}", numbers::significant(scene.time_speed, 4)))
+        }
+    };
+    let selected = context.session.selection().place() == Some(place);
+    let (rect, response) = row_space(ui, selected, name);
+    let marks = Marks { hidden: false, locked: false };
+    let looks = Looks { name, detail: &detail, round: false, marks };
+    draw_name(ui, rect.with_min_x(rect.left() + 8.0).with_max_x(rect.right() + 44.0), &looks, selected, 1.0);
+    if response.clicked() {
+        context.outbox.act(Action::SelectPlace(place));
+    }
+}
+
+/// Whether it was opened or closed.
+fn group_row(ui: &mut Ui, group: Group, count: usize, shown: usize, open: bool) -> bool {
+    let (rect, response) = row_space(ui, false, group.label());
+    let tones = tones(ui);
+    let center = pos2(rect.left() + 12.0, rect.center().y);
+    let tip = if open { vec2(0.0, 3.5) } else { vec2(3.5, 0.0) };
+    let side = if open { vec2(4.0, 0.0) } else { vec2(0.0, 4.0) };
+    let corners = vec![center + tip, center - tip + side, center - tip - side];
+    ui.painter().add(egui::Shape::convex_polygon(corners, tones.weak, egui::Stroke::NONE));
+    let count = if shown == count {
+        numbers::count(count as u64)
+    } else {
+        format!("{} of {}", numbers::count(shown as u64), numbers::count(count as u64))
+    };
+    let at = pos2(rect.left() + 22.0, rect.center().y);
+    let font = FontId::proportional(13.0);
+    let drawn = ui.painter().text(at, Align2::LEFT_CENTER, group.label(), font, tones.strong);
+    let at = pos2(drawn.right() + 8.0, at.y);
+    ui.painter().text(at, Align2::LEFT_CENTER, count, FontId::proportional(11.0), tones.weak);
+    response.clicked()
+}
+
+fn context_menu(ui: &mut Ui, context: &AppContext<'_>) {
+    const COMMANDS: [Command; 9] = [
+        Command::FrameSelection,
+        Command::Rename,
+        Command::Cut,
+        Command::Copy,
+        Command::Paste,
+        Command::Duplicate,
+        Command::Delete,
+        Command::Hide,
+        Command::Lock,
+    ];
+    ui.set_min_width(200.0);
+    COMMANDS.iter().filter_map(|command| editor::info(*command)).for_each(|info| {
+        menu::entry(ui, context, info);
+    });
+}

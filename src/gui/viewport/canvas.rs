@@ -1,0 +1,112 @@
+//! Draw lists onto the window: the picture by OpenGL, its labels by egui.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use eframe::egui_glow;
+use egui::{Align2, FontId, Rect, Ui, vec2};
+
+use crate::gui::colors::color32;
+use crate::render::{PixelRect, Renderer};
+use crate::view::{Color, DrawList, Label};
+
+/// What draws the views; without OpenGL (in tests) it draws only their labels.
+#[derive(Clone, Default)]
+pub struct Canvas {
+    gpu: Option<Arc<Gpu>>,
+}
+
+struct Gpu {
+    renderer: Mutex<Renderer>,
+    failure: Mutex<Option<String>>,
+    redraws: AtomicU64,
+}
+
+impl Canvas {
+    /// Compiles the shaders. The error says why views stay empty.
+    pub fn new(gl: Option<&Arc<glow::Context>>) -> (Self, Option<String>) {
+        match gl.map(|gl| Renderer::new(gl.clone())) {
+            None => (Self::default(), None),
+            Some(Err(error)) => (Self::default(), Some(error.to_string())),
+            Some(Ok(renderer)) => {
+                let gpu = Gpu {
+                    renderer: Mutex::new(renderer),
+                    failure: Mutex::new(None),
+                    redraws: AtomicU64::new(0),
+                };
+                (Self { gpu: Some(Arc::new(gpu)) }, None)
+            }
+        }
+    }
+
+    pub fn redraws(&self) -> u64 {
+        self.gpu.as_ref().map_or(0, |gpu| gpu.redraws.load(Ordering::Relaxed))
+    }
+
+    /// Puts a view's picture and labels at `rect`. `view` tells the views apart.
+    pub fn draw(&self, ui: &Ui, view: usize, rect: Rect, list: &Arc<DrawList>) {
+        let painter = ui.painter_at(rect);
+        let [top, _] = list.background;
+        painter.rect_filled(rect, 0.0, color32(top));
+        if let Some(gpu) = &self.gpu {
+            let (gpu, list) = (gpu.clone(), list.clone());
+            let callback = egui_glow::CallbackFn::new(move |info, _| gpu.paint(view, &list, &info));
+            painter.add(egui::PaintCallback { rect, callback: Arc::new(callback) });
+            if let Some(failure) = self.failure() {
+                let font = FontId::proportional(13.0);
+                let color = ui.visuals().error_fg_color;
+                painter.text(rect.center(), Align2::CENTER_CENTER, failure, font, color);
+            }
+        }
+        for label in &list.labels {
+            draw_label(&painter, rect, label);
+        }
+        draw_notes(&painter, rect, list);
+    }
+
+    fn failure(&self) -> Option<String> {
+        let gpu = self.gpu.as_ref()?;
+        gpu.failure.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+}
+
+impl Gpu {
+    fn paint(&self, view: usize, list: &DrawList, info: &egui::PaintCallbackInfo) {
+        let mut renderer = self.renderer.lock().unwrap_or_else(PoisonError::into_inner);
+        let rect = pixel_rect(&info.viewport_in_pixels());
+        let clip = pixel_rect(&info.clip_rect_in_pixels());
+        match renderer.paint(view, list, rect, clip) {
+            Ok(redrawn) => drop(self.redraws.fetch_add(u64::from(redrawn), Ordering::Relaxed)),
+            Err(error) => {
+                let mut failure = self.failure.lock().unwrap_or_else(PoisonError::into_inner);
+                *failure = Some(error.to_string());
+            }
+        }
+    }
+}
+
+fn pixel_rect(rect: &egui::epaint::ViewportInPixels) -> PixelRect {
+    PixelRect { x: rect.left_px, y: rect.from_bottom_px, width: rect.width_px, height: rect.height_px }
+}
+
+fn draw_label(painter: &egui::Painter, rect: Rect, label: &Label) {
+    let font = FontId::proportional(label.size);
+    let galley = painter.layout_no_wrap(label.text.clone(), font, color32(label.color));
+    let (across, down) = label.align.fractions();
+    let size = galley.size();
+    let at = rect.min + vec2(label.position.x - across * size.x, label.position.y - down * size.y);
+    if label.back != Color::NONE {
+        let back = Rect::from_min_size(at, size).expand2(vec2(3.0, 0.0));
+        painter.rect_filled(back, 2.0, color32(label.back));
+    }
+    painter.galley(at, galley, color32(label.color));
+}
+
+/// What the picture leaves out, under the view's title.
+fn draw_notes(painter: &egui::Painter, rect: Rect, list: &DrawList) {
+    let palette = painter.ctx().style_of(painter.ctx().theme()).visuals.warn_fg_color;
+    for (line, note) in list.notes.iter().enumerate() {
+        let at = rect.left_top() + vec2(10.0, 32.0 + 15.0 * line as f32);
+        painter.text(at, Align2::LEFT_TOP, format!("⚠ {note}"), FontId::proportional(11.5), palette);
+    }
+}

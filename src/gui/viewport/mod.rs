@@ -1,0 +1,372 @@
+//! The views: one, two or four cameras on the same scene, each with its own overlays.
+
+mod canvas;
+mod corner;
+mod gestures;
+mod pane;
+
+use std::sync::Arc;
+
+use egui::{Rect, Ui, vec2};
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+use super::context::{AppContext, Shown};
+use crate::editor::Command;
+use crate::record::{EventRow, Frame};
+use crate::scene::{Motion, NodeKey};
+use crate::view::{
+    self, Bounds, Camera, OVERLAYS, OverlaySet, Projection, Trails, VIEWS, ViewInput, Viewport, scene_bounds,
+};
+
+pub use canvas::Canvas;
+use pane::Pane;
+
+/// Points between views.
+const GAP: f32 = 2.0;
+
+/// How many views are shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Layout {
+    One,
+    Two,
+    #[default]
+    Four,
+}
+
+/// What outlives a run.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Remembered {
+    layout: Layout,
+    snapping: bool,
+    /// Ids of the overlays shown, view by view.
+    overlays: Vec<Vec<String>>,
+}
+
+/// All views and what they share.
+pub struct Views {
+    panes: [Pane; 4],
+    layout: Layout,
+    active: usize,
+    /// What the layout was before one view was maximised.
+    before_maximized: Layout,
+    pub snapping: bool,
+    trails: Trails,
+    canvas: Canvas,
+    start: StartFrame,
+}
+
+/// The frame to draw while the simulation stands at its start: a body that is being dragged is where the
+/// document has it, before the simulation knows.
+#[derive(Default)]
+struct StartFrame {
+    of: Option<(u64, u64)>,
+    frame: Option<Arc<Frame>>,
+}
+
+/// What the views share in one turn of the window.
+struct Scenery<'a> {
+    context: &'a AppContext<'a>,
+    shown: &'a Shown,
+    frame: Arc<Frame>,
+    highlighted: Option<Arc<EventRow>>,
+    trails: &'a Trails,
+    canvas: &'a Canvas,
+    snapping: bool,
+}
+
+impl Scenery<'_> {
+    fn input<'b>(&'b self, pane: &Pane, rect: Rect, pixels_per_point: f32) -> ViewInput<'b> {
+        let size = rect.size();
+        let viewport = Viewport::new(f64::from(size.x), f64::from(size.y), f64::from(pixels_per_point));
+        ViewInput {
+            scene: &self.shown.scene,
+            frame: Some(&self.frame),
+            camera: pane.camera,
+            viewport,
+            overlays: pane.overlays,
+            theme: self.context.theme,
+            selection: self.context.session.selection().keys(),
+            hovered: None,
+            highlighted: self.highlighted.as_deref(),
+            trails: pane.overlays.contains("trails").then_some(self.trails),
+        }
+    }
+}
+
+impl Views {
+    pub fn new(canvas: Canvas, remembered: &Remembered) -> Self {
+        let mut panes: [Pane; 4] = std::array::from_fn(|i| Pane::new(i, &VIEWS[i]));
+        for (pane, ids) in panes.iter_mut().zip(&remembered.overlays) {
+            pane.overlays = OverlaySet::from_ids(ids.iter().map(String::as_str));
+        }
+        Self {
+            panes,
+            layout: remembered.layout,
+            active: 0,
+            before_maximized: Layout::Four,
+            snapping: remembered.snapping,
+            trails: Trails::default(),
+            canvas,
+            start: StartFrame::default(),
+        }
+    }
+
+    pub fn remembered(&self) -> Remembered {
+        let ids = |pane: &Pane| pane.overlays.ids().map(str::to_owned).collect();
+        Remembered {
+            layout: self.layout,
+            snapping: self.snapping,
+            overlays: self.panes.iter().map(ids).collect(),
+        }
+    }
+
+    pub fn layout(&self) -> Layout {
+        self.layout
+    }
+
+    pub fn active_overlays(&self) -> OverlaySet {
+        self.panes[self.active].overlays
+    }
+
+    /// How often a view was drawn anew since the start.
+    pub fn redraws(&self) -> u64 {
+        self.canvas.redraws()
+    }
+
+    /// Another document: look at the whole of it.
+    pub fn opened(&mut self) {
+        self.trails.clear();
+        for pane in &mut self.panes {
+            pane.wants_framing = true;
+        }
+    }
+
+    /// Once per turn of the window, with the newest frame.
+    pub fn look_at(&mut self, frame: &Frame) {
+        self.trails.push(frame);
+    }
+
+    pub fn show(&mut self, ui: &mut Ui, context: &AppContext<'_>) {
+        let area = ui.available_rect_before_wrap();
+        ui.advance_cursor_after_rect(area);
+        ui.painter().rect_filled(area, 0.0, super::colors::tones(ui).line);
+        let Some(shown) = context.shown else {
+            return pane::nothing_to_show(ui, area, context);
+        };
+        let frame = self.start.frame(context, shown);
+        let scenery = Scenery {
+            context,
+            shown,
+            frame,
+            highlighted: context.session.shown_event().cloned(),
+            trails: &self.trails,
+            canvas: &self.canvas,
+            snapping: self.snapping,
+        };
+        let rects = rects(self.layout, self.active, area);
+        for (index, rect) in &rects {
+            let rect = snapped(*rect, ui.pixels_per_point());
+            let pane = &mut self.panes[*index];
+            let outcome = pane.show(ui, rect, &scenery, *index == self.active && rects.len() > 1);
+            if outcome.activated {
+                self.active = *index;
+            }
+            if outcome.maximize {
+                self.active = *index;
+                context.outbox.command(Command::MaximizeView);
+            }
+        }
+    }
+
+    /// Carries out a command about views; `false` if it is none.
+    pub fn execute(&mut self, command: Command, context: &AppContext<'_>) -> bool {
+        match command {
+            Command::FrameAll => self.frame(context, None, Some(self.active)),
+            Command::FrameSelection => {
+                let keys = context.session.selection().keys();
+                self.frame(context, Some(keys), Some(self.active));
+            }
+            Command::ViewPerspective => self.panes[self.active].look_from(None),
+            Command::ViewAlong(axis) => self.panes[self.active].look_from(Some(axis)),
+            Command::ToggleProjection => {
+                let camera = &mut self.panes[self.active].camera;
+                camera.projection = match camera.projection {
+                    Projection::Perspective => Projection::Orthographic,
+                    Projection::Orthographic => Projection::Perspective,
+                };
+            }
+            Command::MaximizeView => {
+                let one = self.layout == Layout::One;
+                let next = if one { self.before_maximized } else { Layout::One };
+                self.set_layout(next);
+            }
+            Command::ShowOneView => self.set_layout(Layout::One),
+            Command::ShowTwoViews => self.set_layout(Layout::Two),
+            Command::ShowFourViews => self.set_layout(Layout::Four),
+            Command::ToggleSnapping => self.snapping = !self.snapping,
+            Command::ToggleOverlay(index) => {
+                if let Some(overlay) = OVERLAYS.get(index) {
+                    self.panes[self.active].overlays.toggle(overlay.id);
+                }
+            }
+            _ => return false,
+        }
+        true
+    }
+
+    fn set_layout(&mut self, layout: Layout) {
+        if self.layout != Layout::One {
+            self.before_maximized = self.layout;
+        }
+        self.layout = layout;
+    }
+
+    /// Brings bodies, or all there is, into one view or all of them.
+    pub fn frame(&mut self, context: &AppContext<'_>, keys: Option<&[NodeKey]>, only: Option<usize>) {
+        let Some(shown) = context.shown else { return };
+        let frame = self.start.frame(context, shown);
+        let Some(bounds) = bounds(&shown.scene, &frame, keys) else { return };
+        for (index, pane) in self.panes.iter_mut().enumerate() {
+            if only.is_none_or(|only| only == index) {
+                pane.camera.frame(padded(bounds, keys.is_some()), pane.aspect());
+            }
+        }
+    }
+
+    /// Turns the first view, for measuring.
+    pub fn turn_first(&mut self, angle: f64) {
+        let [first, ..] = &mut self.panes;
+        first.camera.orbit(angle, 0.0);
+    }
+
+    pub fn set_overlays(&mut self, overlays: OverlaySet) {
+        self.panes.iter_mut().for_each(|pane| pane.overlays = overlays);
+    }
+
+    /// Whether a drag in a view goes on, which Escape gives up.
+    pub fn is_dragging(&self) -> bool {
+        self.panes.iter().any(|pane| pane.gestures.is_dragging())
+    }
+
+    /// Brings a place into all views, keeping their magnification unless it is far too small.
+    pub fn frame_place(&mut self, context: &AppContext<'_>, place: DVec3) {
+        let Some(shown) = context.shown else { return };
+        let reach = 0.25 * shown.scene.map.size.max_element();
+        for pane in &mut self.panes {
+            pane.camera.target = place;
+            pane.camera.height = pane.camera.height.min(reach);
+        }
+    }
+}
+
+impl StartFrame {
+    fn frame(&mut self, context: &AppContext<'_>, shown: &Shown) -> Arc<Frame> {
+        let frame = context.session.frame();
+        if !context.session.shows_start() {
+            return frame.clone();
+        }
+        let of = (shown.revision, frame.revision);
+        match &self.frame {
+            Some(known) if self.of == Some(of) => known.clone(),
+            _ => {
+                let made = at_start(frame, shown);
+                (self.of, self.frame) = (Some(of), Some(made.clone()));
+                made
+            }
+        }
+    }
+}
+
+/// The frame with every body where the document has it.
+fn at_start(frame: &Arc<Frame>, shown: &Shown) -> Arc<Frame> {
+    let differs = |body: &&crate::record::BodyFrame| {
+        shown.body(body.key).is_none_or(|wanted| {
+            let velocity = match wanted.motion {
+                Motion::Dynamic { velocity, .. } => velocity,
+                Motion::Static => DVec3::ZERO,
+            };
+            wanted.position != body.position || velocity != body.velocity
+        })
+    };
+    if !frame.bodies.iter().any(|body| differs(&body)) {
+        return frame.clone();
+    }
+    let bodies = frame.bodies.iter().filter(|body| !differs(body)).cloned().collect();
+    Arc::new(Frame { bodies, ..(**frame).clone() })
+}
+
+fn bounds(scene: &crate::scene::Scene, frame: &Frame, keys: Option<&[NodeKey]>) -> Option<Bounds> {
+    let input = ViewInput {
+        frame: Some(frame),
+        ..ViewInput::new(scene, Camera::default(), Viewport::new(100.0, 100.0, 1.0))
+    };
+    let bounds = scene_bounds(&input, keys);
+    bounds.size().is_finite().then_some(bounds)
+}
+
+/// A selected body with some of its surroundings.
+fn padded(bounds: Bounds, selection: bool) -> Bounds {
+    let factor = if selection { 1.6 } else { 1.0 };
+    Bounds::around(bounds.center(), bounds.size() * 0.5 * factor)
+}
+
+/// Where the views are, in drawing order.
+fn rects(layout: Layout, active: usize, area: Rect) -> Vec<(usize, Rect)> {
+    let half = (area.size() - vec2(GAP, GAP)) / 2.0;
+    let quarter = |column: f32, row: f32| {
+        let min = area.min + vec2(column * (half.x + GAP), row * (half.y + GAP));
+        Rect::from_min_size(min, half)
+    };
+    match layout {
+        Layout::One => vec![(active, area)],
+        Layout::Two => {
+            let second = if active == 0 { 1 } else { active };
+            let side = |column: f32| {
+                let min = area.min + vec2(column * (half.x + GAP), 0.0);
+                Rect::from_min_size(min, vec2(half.x, area.height()))
+            };
+            vec![(0, side(0.0)), (second, side(1.0))]
+        }
+        Layout::Four => vec![
+            (0, quarter(0.0, 0.0)),
+            (1, quarter(1.0, 0.0)),
+            (2, quarter(0.0, 1.0)),
+            (3, quarter(1.0, 1.0)),
+        ],
+    }
+}
+
+/// On whole pixels, so that pictures are not resampled.
+fn snapped(rect: Rect, pixels_per_point: f32) -> Rect {
+    use egui::emath::GuiRounding as _;
+    rect.round_to_pixels(pixels_per_point)
+}
+
+/// What to call what a camera shows.
+fn look_name(camera: &Camera) -> &'static str {
+    match (camera.projection, camera.axis_view()) {
+        (Projection::Perspective, _) => "Perspective",
+        (Projection::Orthographic, Some(axis)) => axis.label(),
+        (Projection::Orthographic, None) => "Parallel",
+    }
+}
+
+/// View coordinates of a place on the screen.
+fn ndc(viewport: &Viewport, rect: Rect, at: egui::Pos2) -> glam::DVec2 {
+    let from_corner = at - rect.min;
+    viewport.ndc(glam::DVec2::new(f64::from(from_corner.x), f64::from(from_corner.y)))
+}
+
+fn egui_theme(theme: egui::Theme) -> view::Theme {
+    match theme {
+        egui::Theme::Dark => view::Theme::Dark,
+        egui::Theme::Light => view::Theme::Light,
+    }
+}
+
+/// The theme that views are drawn in.
+pub fn theme_of(ctx: &egui::Context) -> view::Theme {
+    egui_theme(ctx.theme())
+}
