@@ -9,6 +9,8 @@
     reason = "a test fails by stopping; expected values need not be the same bits everywhere; files round pi"
 )]
 
+// The command line through the real program: formats, exit codes, streams, hostile files.
+mod cli;
 // Shared helpers: scenes, seeded numbers, driving, the all-pairs monitor.
 mod common;
 // The command table: unique names and keys, reasons for what is disabled.
@@ -25,8 +27,6 @@ mod editor_recovery;
 mod editor_support;
 // Undo: one point per gesture, the document alone.
 mod editor_undo;
-// The command line through the real program: formats, exit codes, streams, hostile files.
-mod cli;
 // The rules of the source tree: layers, file sizes, function sizes.
 mod layering;
 // Runners: the Δt grid, going back, edits with their stamps, playing.
@@ -57,12 +57,16 @@ mod sim_edits;
 mod sim_extremes;
 // Motion between events: throw, Kepler ellipse, fall through air.
 mod sim_flight;
+// Several contacts at one instant: corners, trains of balls, a billiard break.
+mod sim_group;
 // Single impacts: bouncing, coming to rest, bullets, grazing passes.
 mod sim_impact;
 // Δt, tiles, file order, looking and snapshots change no bit.
 mod sim_invariance;
 // Random scenes against all pairs, the reference and conservation laws.
 mod sim_random;
+// Times of impact against bisection, at the rims of plates and spheres.
+mod sim_roots;
 // The thesis's own scene against the reference, and its invariants over a minute.
 mod sim_thesis;
 // Cameras: rays against projections, framing, zoom to the cursor, the six axis views.

@@ -1,0 +1,91 @@
+//! Several contacts at one instant: corners, trains of balls, a billiard break.
+
+use glam::{DVec3, dvec3};
+use polyscene::scene::Scene;
+
+use crate::common::build::{Build, Shaped, ball, empty};
+use crate::common::drive::{Sampling, advance, assert_same_bits, run, simulation, state_of};
+use crate::common::random::Random;
+
+#[test]
+fn corner_of_two_and_three_walls_sends_a_ball_straight_back() {
+    // NUMERICS case 13: all walls are touched at the same instant, each turns its own component round.
+    for velocity in
+        [dvec3(-1.0, -1.0, 0.0), dvec3(-2.0, -2.0, -2.0), dvec3(3.0, 3.0, 3.0), dvec3(-1.5, -1.5, 0.25)]
+    {
+        let mut sim = simulation(&empty().walls(1).ball(10, DVec3::splat(5.0), velocity));
+        advance(&mut sim, 4.5 / velocity.abs().max_element() + 0.1, Sampling::Every(0.7));
+        let turned = velocity * dvec3(-1.0, -1.0, if velocity.z.abs() < 1.0 { 1.0 } else { -1.0 });
+        let found = state_of(&sim, 10).velocity;
+        assert!((found - turned).length() <= 1e-12, "{velocity}: {found}");
+    }
+}
+
+#[test]
+fn as_many_balls_leave_a_cradle_as_came_in() {
+    // NUMERICS case 4 with two and three incoming.
+    for incoming in [2, 3] {
+        let along = DVec3::X;
+        let scene = (0..incoming)
+            .fold(empty(), |scene, k| scene.ball(1 + k, dvec3(k as f64 - 4.0, 5.0, 5.0), along * 2.0));
+        let scene =
+            (0..5).fold(scene, |scene, k| scene.ball(10 + k, dvec3(2.0 + k as f64, 5.0, 5.0), DVec3::ZERO));
+        for dt in [1.0, 1.0 / 60.0] {
+            let run = run(&scene, 4.0, Sampling::Every(dt));
+            let moving_from = run.states.len() - incoming as usize;
+            for (k, (_, state)) in run.states.iter().enumerate() {
+                let expected = if k >= moving_from { along * 2.0 } else { DVec3::ZERO };
+                assert!(
+                    (state.velocity - expected).length() <= 1e-12,
+                    "{incoming} in, ball {k}: {}",
+                    state.velocity
+                );
+            }
+        }
+    }
+}
+
+/// A rack of 15 touching balls in a triangle in the xz plane, symmetric about x, and a cue ball.
+fn billiard(ids: &[i64; 16]) -> Scene {
+    let row_distance = 0.75_f64.sqrt();
+    let mut scene = empty().ball(ids[0], dvec3(-3.0, 5.0, 0.0), dvec3(6.0, 0.0, 0.0));
+    let mut next = 1;
+    for row in 0..5 {
+        for place in 0..=row {
+            let across = f64::from(place) - f64::from(row) / 2.0;
+            scene = scene.ball(ids[next], dvec3(f64::from(row) * row_distance, 5.0, across), DVec3::ZERO);
+            next += 1;
+        }
+    }
+    scene
+}
+
+#[test]
+fn billiard_break_does_not_depend_on_the_order_of_the_file() {
+    let ids: [i64; 16] = std::array::from_fn(|k| k as i64 + 1);
+    let expected = run(&billiard(&ids), 1.0, Sampling::Every(0.1));
+    let mut random = Random::new(5);
+    for _ in 0..5 {
+        let mut scene = billiard(&ids);
+        random.shuffle(&mut scene.bodies);
+        assert_same_bits(&expected, &run(&scene, 1.0, Sampling::Every(0.1)), "another order");
+    }
+}
+
+#[test]
+fn simultaneous_impacts_apart_from_each_other_are_all_told() {
+    // Three pairs and a wall, all at t = 1: four rows at one time, in the order of the UserIDs.
+    let scene = (0..3).fold(empty().plate(90, dvec3(20.0, 0.0, 0.0), DVec3::ZERO, 1.0, 1.0), |scene, k| {
+        let z = 3.0 * k as f64;
+        scene.ball(2 * k + 1, dvec3(0.0, 0.0, z), DVec3::X).ball(2 * k + 2, dvec3(3.0, 0.0, z), -DVec3::X)
+    });
+    let scene = scene.body(ball(50, dvec3(20.0, 0.0, 1.5), -DVec3::Z).mass(2.0));
+    let events = run(&scene, 2.0, Sampling::Every(0.7)).events;
+    assert_eq!(events.len(), 4, "{events:?}");
+    assert!(events.iter().all(|event| event.time == 1.0), "{events:?}");
+    let labels: Vec<_> = {
+        let sim = simulation(&scene);
+        events.iter().map(|event| sim.label(event.a).to_owned()).collect()
+    };
+    assert_eq!(labels, ["1", "3", "5", "50"]);
+}
