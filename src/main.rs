@@ -27,7 +27,7 @@ fn open_editor(args: EditArgs) -> Result<(), CliError> {
     let options = gui::Options { scene, window_size, screenshot, steps, bench_orbit };
     let report = gui::run(options).map_err(|error| match error {
         GuiError::NoWindow(reason) => CliError::no_window(reason),
-        other => CliError::Usage(other.to_string()),
+        GuiError::Script(why) => CliError::Usage(why),
     })?;
     if bench_orbit.is_some() {
         cli::say(report);

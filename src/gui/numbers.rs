@@ -56,6 +56,7 @@ mod tests {
     use super::*;
 
     #[test]
+    #[allow(clippy::approx_constant, reason = "the old tools wrote angles with these digits")]
     fn digits_are_kept_where_they_help() {
         let cases = [
             (0.0, "0"),

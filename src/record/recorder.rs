@@ -362,7 +362,7 @@ impl Run {
                 self.faulted = false;
             }
             Err(refused) => {
-                self.message = Some(format!("the running simulation refused the edit: {refused}"))
+                self.message = Some(format!("the running simulation refused the edit: {refused}"));
             }
         }
     }

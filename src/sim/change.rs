@@ -43,7 +43,7 @@ pub(super) fn apply(model: &mut Model, state: &mut State, edit: &SimEdit) -> Res
         SimEdit::ChangeStatic(body) => Some(change_static(model, state, body)?),
     };
     model.plan = plan_of(model);
-    restart_all(model, state, before, body).map_err(|fault| EditRefused(fault.to_string()))
+    restart_all(model, state, &before, body).map_err(|fault| EditRefused(fault.to_string()))
 }
 
 /// Adds a force of the user's own at `state.now`. Copies, as for [`apply`].
@@ -55,7 +55,7 @@ pub(super) fn add_custom(
     let before = Books::read(model, state);
     model.forces.push(ForceEntry { key: None, law: Law::Custom(force) });
     model.plan = plan_of(model);
-    restart_all(model, state, before, None).map_err(|fault| EditRefused(fault.to_string()))
+    restart_all(model, state, &before, None).map_err(|fault| EditRefused(fault.to_string()))
 }
 
 /// Removes a force added by [`add_custom`]; whether it was there. Copies, as for [`apply`].
@@ -69,7 +69,7 @@ pub(super) fn remove_custom(
     let before = Books::read(model, state);
     model.forces.remove(index);
     model.plan = plan_of(model);
-    restart_all(model, state, before, None).map_err(|fault| EditRefused(fault.to_string()))?;
+    restart_all(model, state, &before, None).map_err(|fault| EditRefused(fault.to_string()))?;
     Ok(true)
 }
 
@@ -101,7 +101,7 @@ fn cut(state: &mut State, body: u32, time: f64) {
 fn restart_all(
     model: &Model,
     state: &mut State,
-    before: Books,
+    before: &Books,
     changed: Option<BodyRef>,
 ) -> Result<(), Fault> {
     let time = state.now;

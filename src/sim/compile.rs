@@ -109,14 +109,12 @@ pub(super) fn compile_body(body: &Body, order: u32) -> Result<Compiled, Diagnost
                 present: true,
             }))
         }
-        (Motion::Dynamic { .. }, Shape::Plane { .. }) => Err(problem(
-            body,
-            "a plane can't be dynamic".into(),
-            "make it a HardObject, or use another shape",
-        )),
+        (Motion::Dynamic { .. }, Shape::Plane { .. }) => {
+            Err(problem(body, "a plane can't be dynamic", "make it a HardObject, or use another shape"))
+        }
         (_, Shape::Unbuilt { element }) => Err(problem(
             body,
-            format!("{element} can't be simulated by this version"),
+            &format!("{element} can't be simulated by this version"),
             "remove the body, or replace what this version does not know",
         )),
     }
@@ -124,7 +122,7 @@ pub(super) fn compile_body(body: &Body, order: u32) -> Result<Compiled, Diagnost
 
 /// Scenes made by code have passed no reader.
 fn check_numbers(body: &Body) -> Result<(), Diagnostic> {
-    let wrong = |what: &str, hint: &str| Err(problem(body, format!("{what} is out of range"), hint));
+    let wrong = |what: &str, hint: &str| Err(problem(body, &format!("{what} is out of range"), hint));
     if !body.position.is_finite() || !body.rotation.is_finite() {
         return wrong("its position or rotation", "give finite numbers");
     }
@@ -185,7 +183,7 @@ fn check_world(scene: &Scene) -> Vec<Diagnostic> {
     problems
 }
 
-fn problem(body: &Body, what: String, hint: &str) -> Diagnostic {
+fn problem(body: &Body, what: &str, hint: &str) -> Diagnostic {
     Diagnostic {
         severity: Severity::Error,
         position: None,

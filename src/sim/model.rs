@@ -78,7 +78,7 @@ pub(super) struct Plate {
 
 impl Plate {
     /// A point in the plate's own frame: Q' = R⁻¹(Q − P).
-    pub fn to_local(&self, at: DVec3) -> DVec3 {
+    pub fn local_of(&self, at: DVec3) -> DVec3 {
         let d = at - self.center;
         DVec3::new(self.axis_x.dot(d), self.axis_y.dot(d), self.normal.dot(d))
     }

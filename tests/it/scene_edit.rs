@@ -50,6 +50,7 @@ pub fn same_meaning(a: &Document, b: &Document) -> bool {
 }
 
 /// Applies an edit to a body of the plain scene and compares the whole text.
+#[allow(clippy::needless_pass_by_value, reason = "the calls read like a table")]
 fn check_body(index: usize, change: BodyChange, from: &str, to: &str) {
     let (before, document) = (plain(), read(&plain()));
     assert_eq!(before.matches(from).count(), 1, "{from} is not unique");

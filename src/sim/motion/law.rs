@@ -74,7 +74,7 @@ fn in_core(model: &Model, at: DVec3) -> bool {
 }
 
 fn needs_integration(model: &Model, state: &State, body: u32) -> bool {
-    !model.is_ballistic() || state.contacts[body as usize].iter().any(|contact| contact.is_round())
+    !model.is_ballistic() || state.contacts[body as usize].iter().any(Contact::is_round)
 }
 
 /// One step of the field integrator. Its length comes from the state and the parameters only, so that it

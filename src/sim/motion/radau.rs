@@ -9,6 +9,7 @@ use glam::DVec3;
 use crate::sim::segment::{SERIES, Segment, Series};
 
 /// Left Radau nodes on [0, 1]: 0 and the zeros of a Jacobi polynomial (Everhart 1985, table 1).
+#[allow(clippy::excessive_precision, reason = "the digits as published; the compiler rounds them")]
 const NODES: [f64; SERIES + 1] = [
     0.0,
     0.056_262_560_536_922_146_465_652_191_031_8,
@@ -153,8 +154,8 @@ fn correct(
             }
             largest = largest.max(a.length());
             let delta = update_difference(&mut differences, n, a - a0);
-            for i in 0..n {
-                series.b[i] += TO_POWERS[n - 1][i] * delta;
+            for (b, power) in series.b.iter_mut().zip(TO_POWERS[n - 1]).take(n) {
+                *b += power * delta;
             }
             if n == SERIES {
                 change = delta.length();

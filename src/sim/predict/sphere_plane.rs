@@ -22,7 +22,7 @@ pub(super) fn first_contact(mover: Mover<'_>, plate: &Plate, from: f64) -> Optio
                 if time > seg.end {
                     return None;
                 }
-                if plate.covers(plate.to_local(mover.path.position(time))) {
+                if plate.covers(plate.local_of(mover.path.position(time))) {
                     return Some(time);
                 }
                 from = time;
@@ -84,7 +84,7 @@ impl NearPlate {
 /// The nearest part of a plate. A point in the plate itself counts as above it, whatever its velocity:
 /// else an impact there would repeat for ever.
 pub(in crate::sim) fn closest_on_plate(plate: &Plate, at: DVec3) -> NearPlate {
-    let local = plate.to_local(at);
+    let local = plate.local_of(at);
     let over_x = local.x.abs() - plate.half_x;
     let over_y = local.y.abs() - plate.half_y;
     let feature = match (over_x > 0.0, over_y > 0.0) {
@@ -117,7 +117,7 @@ enum Reach {
 
 /// First τ ≥ 0 with |z(τ)| = r, approaching, for z(τ) = z + ż τ + ½ z̈ τ² in the plate's frame.
 fn reach_plane(mover: Mover<'_>, plate: &Plate, from: f64, slack: f64) -> Reach {
-    let z = plate.to_local(mover.path.position(from)).z;
+    let z = plate.local_of(mover.path.position(from)).z;
     let side = if z < 0.0 { -1.0 } else { 1.0 };
     let distance = side * z - mover.radius;
     let velocity = mover.path.velocity(from);
