@@ -1,5 +1,5 @@
 //! The editor's window: panels and views in egui, over the layers `editor`, `view` and `render`.
-//! Panels get a read-only [`context::AppContext`] and send messages up; [`App`] carries them out.
+//! Panels get a read-only `AppContext` and send messages up; [`App`] carries them out.
 
 mod app;
 mod colors;

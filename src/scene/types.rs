@@ -22,7 +22,7 @@ pub struct Scene {
     pub bodies: Vec<Body>,
 }
 
-/// The box [0,x]×[0,y]×[0,z] that the tiles divide. It does not collide.
+/// The box `[0,x]×[0,y]×[0,z]` that the tiles divide. It does not collide.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Map {
     /// Metres, each > 0.
