@@ -4,9 +4,10 @@
 use std::sync::{Arc, OnceLock};
 
 use quick_xml::Reader;
+use quick_xml::errors::IllFormedError;
 use quick_xml::events::Event;
 
-use super::rules::{MAX_DEPTH, is_name, is_xml_char};
+use super::rules::{MAX_DEPTH, MAX_NODES, is_name, is_xml_char};
 use super::shown;
 use super::tree::{Child, Children, Element, Keys, NO_PLACE, Text, tag};
 
@@ -60,14 +61,15 @@ struct Parser<'a> {
     has_root: bool,
     open: Vec<Open<'a>>,
     top: Vec<Child>,
+    nodes: usize,
     /// Of the attributes of one tag.
     names: Vec<&'a str>,
 }
 
 impl<'a> Parser<'a> {
     fn new(source: &'a str, keys: &'a Keys, whole: bool) -> Self {
-        let (open, top, names) = Default::default();
-        Self { source, keys, whole, has_root: false, open, top, names }
+        let (open, top, nodes, names) = Default::default();
+        Self { source, keys, whole, has_root: false, open, top, nodes, names }
     }
 
     fn run(&mut self) -> Result<(), ParseFault> {
@@ -82,12 +84,7 @@ impl<'a> Parser<'a> {
                 Ok(event) => self.event(&event, start, end)?,
                 Err(err) => {
                     let at = reader.error_position() as usize;
-                    let message = match err {
-                        quick_xml::Error::IllFormed(err) => err.to_string(),
-                        quick_xml::Error::Syntax(err) => err.to_string(),
-                        err => err.to_string(),
-                    };
-                    return Err(self.fault(at, &message, "the file is not well-formed XML"));
+                    return Err(self.fault(at, &said(&err), "the file is not well-formed XML"));
                 }
             }
         }
@@ -95,6 +92,11 @@ impl<'a> Parser<'a> {
 
     fn event(&mut self, event: &Event<'_>, start: usize, end: usize) -> Result<(), ParseFault> {
         let piece = self.source.get(start..end).unwrap_or("");
+        self.nodes += 1;
+        if self.nodes > MAX_NODES {
+            let message = format!("there are more than {MAX_NODES} pieces of XML");
+            return Err(self.fault(start, &message, "divide the scene"));
+        }
         match event {
             Event::Start(_) => self.start(start, piece)?,
             Event::Empty(_) => {
@@ -270,6 +272,21 @@ impl<'a> Parser<'a> {
     fn fault(&self, at: usize, message: &str, hint: &str) -> ParseFault {
         let path = self.open.iter().map(|open| format!("/{}", shown(tag::name(open.tag)))).collect();
         ParseFault { at, path, message: message.to_owned(), hint: hint.to_owned() }
+    }
+}
+
+/// A fault in the words of quick-xml, but with names from the file made fit to show.
+fn said(err: &quick_xml::Error) -> String {
+    match err {
+        quick_xml::Error::IllFormed(IllFormedError::MismatchedEndTag { expected, found }) => {
+            format!("</{}> is expected here, not </{}>", shown(expected), shown(found))
+        }
+        quick_xml::Error::IllFormed(IllFormedError::UnmatchedEndTag(name)) => {
+            format!("</{}> closes nothing", shown(name))
+        }
+        quick_xml::Error::IllFormed(err) => err.to_string(),
+        quick_xml::Error::Syntax(err) => err.to_string(),
+        err => err.to_string(),
     }
 }
 

@@ -11,6 +11,13 @@ pub(super) const MAX_DEPTH: usize = 64;
 /// Largest file that is read. Offsets into it are kept in 32 bits.
 pub(super) const MAX_FILE_BYTES: u64 = 256 * 1024 * 1024;
 
+/// Elements of one document, and pieces between them: what 256 MiB of bodies have, and a limit to what
+/// 256 MiB of `<a/>` make of the memory.
+pub(super) const MAX_NODES: usize = 24_000_000;
+
+/// Bodies, or forces, of one document: what 256 MiB hold.
+pub(super) const MAX_ITEMS: usize = 1_000_000;
+
 /// Problems of one severity that are listed; the rest are counted. A list is for people.
 pub(super) const MAX_DIAGNOSTICS: usize = 1000;
 

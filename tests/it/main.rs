@@ -47,6 +47,8 @@ mod scene_invalid;
 mod scene_properties;
 // The reader: values, defaults, labels, places.
 mod scene_read;
+// Many bodies: what an edit costs, and whether it is right.
+mod scene_scale;
 // Chains of impacts with known outcomes: head-on pairs, Newton's cradle, counting π.
 mod sim_chain;
 // Lasting contact: inclines, corners, edges, air, lifting off.

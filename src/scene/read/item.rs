@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use super::feature::{self, Use};
-use super::log::{Log, Problem};
+use super::log::Log;
+use super::problem::{Limited, Problem};
 use super::{body, cosmetic, force};
 use crate::scene::tree::View;
 use crate::scene::{Body, Force};
@@ -14,7 +15,7 @@ pub(in crate::scene) struct ItemReading {
     pub item: Item,
     pub id: Option<i64>,
     /// Paths begin below the element.
-    pub problems: Vec<Problem>,
+    pub problems: Limited<Problem>,
     /// Elements of format 1.1.
     pub uses: Vec<Use>,
 }

@@ -1,26 +1,15 @@
 //! Collects problems while an element is read, and holds the checks that all elements share.
 
+use super::problem::{Limited, Problem};
 use crate::scene::diagnostic::Severity;
 use crate::scene::rules::Range;
 use crate::scene::tree::{RawKind, View, raw_kind};
 use crate::scene::{number, shown};
 
-/// A problem whose place and path are still relative to the document and to the element read.
-#[derive(Clone, Debug, PartialEq)]
-pub(in crate::scene) struct Problem {
-    pub severity: Severity,
-    /// Bytes into the source.
-    pub at: Option<u32>,
-    /// Below the element that was read, such as `/Sphere/Radius`.
-    pub path: String,
-    pub message: String,
-    pub hint: String,
-}
-
 /// The problems found so far and the path of the element being read.
 #[derive(Default)]
 pub(super) struct Log<'a> {
-    pub problems: Vec<Problem>,
+    pub problems: Limited<Problem>,
     path: Vec<&'a str>,
 }
 
@@ -42,8 +31,8 @@ impl<'a> Log<'a> {
     }
 
     fn report(&mut self, severity: Severity, at: Option<u32>, message: String, hint: String) {
-        let path = self.path.iter().map(|name| format!("/{}", shown(name))).collect();
-        self.problems.push(Problem { severity, at, path, message, hint });
+        let path = || self.path.iter().map(|name| format!("/{}", shown(name))).collect();
+        self.problems.add(severity, || Problem { severity, at, path: path(), message, hint });
     }
 
     /// The first child of each known name. A second one is an error, an unknown one a warning.

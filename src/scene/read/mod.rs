@@ -8,6 +8,7 @@ mod force;
 mod item;
 mod log;
 mod map;
+mod problem;
 mod scene;
 mod shape;
 mod simulation;

@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use super::feature::FeatureCounts;
 use super::item::{Item, ItemReading};
-use super::log::{Log, Problem, place_in};
+use super::log::{Log, place_in};
+use super::problem::{Limited, Problem};
 use super::{map, simulation};
 use crate::scene::ids::{Label, Labels};
-use crate::scene::rules::MAX_DIAGNOSTICS;
+use crate::scene::rules::MAX_ITEMS;
 use crate::scene::source::Source;
 use crate::scene::tree::{Children, View};
 use crate::scene::{Diagnostic, NodeKey, Scene, Severity, SimParams, locate, shown};
@@ -22,7 +23,7 @@ pub(in crate::scene) struct Meaning {
 
 /// Reads a well-formed document.
 pub(in crate::scene) fn read(source: &Source, top: &Children) -> Meaning {
-    let mut reader = Reader { problems: Vec::new(), features: FeatureCounts::default() };
+    let mut reader = Reader::default();
     let Some(root) = locate::root(top, &source.text) else { return Meaning::default() };
     let scene = reader.root(root, source.contradiction.as_deref()).map(Arc::new);
     let diagnostics = reader.diagnostics(source);
@@ -35,8 +36,9 @@ struct Placed {
     key: NodeKey,
 }
 
+#[derive(Default)]
 struct Reader {
-    problems: Vec<Placed>,
+    problems: Limited<Placed>,
     features: FeatureCounts,
 }
 
@@ -46,7 +48,7 @@ impl Reader {
         if root.name() != "PolyPhysicsXml" {
             let message = format!("the root element is {}, not PolyPhysicsXml", shown(root.name()));
             log.error(root.place(), message, "this is not a scene, or its root was renamed");
-            self.take(log.problems, "", root);
+            self.take(&log.problems, "", root);
             return None;
         }
         if let Some(contradiction) = contradiction {
@@ -60,7 +62,7 @@ impl Reader {
                 "write <Map><Size X=\"10\" Y=\"10\" Z=\"10\" /><Tiles X=\"10\" Y=\"10\" Z=\"10\" /></Map>";
             log.error(root.place(), "there is no Map", hint);
         }
-        self.take(log.problems, "/PolyPhysicsXml", root);
+        self.take(&log.problems, "/PolyPhysicsXml", root);
         let map = map.map(|el| self.section(el, |log| map::read(el, log)));
         let mut scene = Scene {
             map: map.unwrap_or(map::FALLBACK),
@@ -128,8 +130,12 @@ impl Reader {
         let mut log = Log::default();
         log.check_attributes(el, &[]);
         log.check_text(el);
-        self.take(log.problems, path, el);
-        let items = el.elements().map(|el| {
+        if let Some(surplus) = el.elements().nth(MAX_ITEMS) {
+            let message = format!("there are more than {MAX_ITEMS} elements; the rest is not read");
+            log.error(surplus.place(), message, "divide the scene");
+        }
+        self.take(&log.problems, path, el);
+        let items = el.elements().take(MAX_ITEMS).map(|el| {
             let reading = el.node.reading.get_or_init(|| Arc::new(read(el)));
             (el, reading)
         });
@@ -137,7 +143,7 @@ impl Reader {
         let mut labels = Labels::of(items.iter().map(|(_, reading)| reading.id));
         for (el, reading) in items {
             if matches!(reading.item, Item::Unknown) {
-                self.take(reading.problems.iter().cloned(), path, el);
+                self.take(&reading.problems, path, el);
                 continue;
             }
             let label = labels.next(reading.id);
@@ -146,7 +152,8 @@ impl Reader {
             self.check_id(&mut log, el, reading, label);
             if !(log.problems.is_empty() && reading.problems.is_empty()) {
                 let path = format!("{path}/{}[{}]", el.name(), label.text());
-                self.take(reading.problems.iter().cloned().chain(log.problems), &path, el);
+                self.take(&reading.problems, &path, el);
+                self.take(&log.problems, &path, el);
             }
             add(&reading.item, label);
         }
@@ -167,7 +174,7 @@ impl Reader {
     fn section<'a, R>(&mut self, el: View<'a>, read: impl FnOnce(&mut Log<'a>) -> R) -> R {
         let mut log = Log::default();
         let result = read(&mut log);
-        self.take(log.problems, &format!("/PolyPhysicsXml/{}", el.name()), el);
+        self.take(&log.problems, &format!("/PolyPhysicsXml/{}", el.name()), el);
         result
     }
 
@@ -181,40 +188,36 @@ impl Reader {
             let message = format!("{name} is new in format 1.1, but the file says Version 1.0{times}");
             log.warn(first.or(root.place()), message, "write Version=\"1.1\"");
         }
-        self.take(log.problems, "/PolyPhysicsXml", root);
+        self.take(&log.problems, "/PolyPhysicsXml", root);
     }
 
-    fn take(&mut self, problems: impl IntoIterator<Item = Problem>, path: &str, el: View<'_>) {
-        let key = el.node.key;
-        self.problems.extend(problems.into_iter().map(|problem| Placed {
-            problem: Problem { path: format!("{path}{}", problem.path), ..problem },
-            key,
-        }));
+    fn take(&mut self, problems: &Limited<Problem>, path: &str, el: View<'_>) {
+        for problem in &problems.kept {
+            self.problems.add(problem.severity, || {
+                let path = format!("{path}{}", problem.path);
+                Placed { problem: Problem { path, ..problem.clone() }, key: el.node.key }
+            });
+        }
+        self.problems.add_beyond(problems);
     }
 
     /// All problems by place, the first of each severity in full and the rest as a number.
     fn diagnostics(&mut self, source: &Source) -> Vec<Diagnostic> {
-        self.problems.sort_by_key(|placed| placed.problem.at.unwrap_or(u32::MAX));
-        let mut diagnostics = Vec::new();
-        let mut counts = [0; 2];
-        for Placed { problem, key } in self.problems.drain(..) {
-            let count = &mut counts[problem.severity as usize];
-            *count += 1;
-            if *count <= MAX_DIAGNOSTICS {
-                diagnostics.push(Diagnostic {
-                    severity: problem.severity,
-                    position: problem.at.map(|at| source.position(at as usize)),
-                    path: problem.path,
-                    message: problem.message,
-                    hint: problem.hint,
-                    key: Some(key),
-                });
-            }
-        }
-        for (severity, count) in [Severity::Error, Severity::Warning].map(|s| (s, counts[s as usize])) {
-            if count > MAX_DIAGNOSTICS {
-                let message = format!("and {} more {severity}s", count - MAX_DIAGNOSTICS);
-                let (path, hint) = Default::default();
+        self.problems.kept.sort_by_key(|placed| placed.problem.at.unwrap_or(u32::MAX));
+        let kept = self.problems.kept.drain(..).map(|Placed { problem, key }| Diagnostic {
+            severity: problem.severity,
+            position: problem.at.map(|at| source.position(at as usize)),
+            path: problem.path,
+            message: problem.message,
+            hint: problem.hint,
+            key: Some(key),
+        });
+        let mut diagnostics = kept.collect::<Vec<_>>();
+        for severity in [Severity::Error, Severity::Warning] {
+            let more = self.problems.beyond(severity);
+            if more > 0 {
+                let (message, path, hint) =
+                    (format!("and {more} more {severity}s"), String::new(), String::new());
                 diagnostics.push(Diagnostic { severity, position: None, path, message, hint, key: None });
             }
         }

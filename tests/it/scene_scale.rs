@@ -1,0 +1,61 @@
+//! A hundred thousand bodies: an edit costs a small part of loading, and what is new agrees with a fresh read.
+
+use std::time::{Duration, Instant};
+
+use glam::DVec3;
+use polyscene::scene::{BodyChange, Document, Edit, Shape};
+
+use crate::scene_edit::same_meaning;
+use crate::scene_read::{BALL, read, scene_with};
+
+fn many(count: usize) -> Document {
+    let bodies = (0..count).map(|id| BALL.replace("5853", &id.to_string()));
+    let document = read(&scene_with("", &bodies.collect::<String>()));
+    assert_eq!(document.scene().unwrap().bodies.len(), count);
+    document
+}
+
+/// The shortest of a few runs: the machine may be busy with other things.
+fn shortest(mut run: impl FnMut()) -> Duration {
+    let times = (0..5).map(|_| {
+        let start = Instant::now();
+        run();
+        start.elapsed()
+    });
+    times.min().unwrap()
+}
+
+#[test]
+fn dragging_one_of_many_bodies_does_not_read_the_file_again() {
+    let mut document = many(20_000);
+    let bytes = document.to_bytes();
+    let load = shortest(|| assert!(!Document::from_bytes(&bytes).has_errors()));
+    let key = document.scene().unwrap().bodies[10_000].key;
+    let mut x = 0.0;
+    let edit = shortest(|| {
+        x += 0.1;
+        let change = BodyChange::Position(DVec3::new(x, 3.0, 6.0));
+        document = document.apply(&Edit::Body { key, change }).unwrap().document;
+        assert_eq!(document.scene().unwrap().bodies[10_000].position.x, x);
+    });
+    assert!(edit * 4 < load, "loading takes {load:?} and an edit {edit:?}");
+}
+
+#[test]
+fn edits_of_many_bodies_at_once_agree_with_a_fresh_read() {
+    let document = many(3000);
+    let keys = document.scene().unwrap().bodies.iter().map(|body| body.key).collect::<Vec<_>>();
+    let third = keys.iter().copied().step_by(3).collect::<Vec<_>>();
+    let shape = BodyChange::Shape(Shape::Sphere { radius: 0.25 });
+    let moves = keys.iter().map(|&key| Edit::Body { key, change: BodyChange::Position(DVec3::ONE) });
+    let shapes = third.iter().map(|&key| Edit::Body { key, change: shape.clone() });
+    let both = Edit::All(moves.chain(shapes).collect());
+    let duplicate = Edit::Duplicate { keys: third.clone(), offset: DVec3::X };
+    let delete = Edit::Delete { keys: third };
+    let mut now = document.clone();
+    for (edit, count) in [(both, 3000), (duplicate, 4000), (delete, 3000)] {
+        now = now.apply(&edit).unwrap().document;
+        assert_eq!(now.scene().unwrap().bodies.len(), count);
+        assert!(same_meaning(&now, &Document::from_bytes(&now.to_bytes())));
+    }
+}
