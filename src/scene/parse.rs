@@ -270,7 +270,13 @@ impl<'a> Parser<'a> {
     }
 
     fn fault(&self, at: usize, message: &str, hint: &str) -> ParseFault {
-        let path = self.open.iter().map(|open| format!("/{}", shown(tag::name(open.tag)))).collect();
+        /// A scene's own elements are 6 deep; more names say nothing more.
+        const LONGEST_PATH: usize = 8;
+        let names = self.open.iter().take(LONGEST_PATH).map(|open| shown(tag::name(open.tag)));
+        let mut path = names.map(|name| format!("/{name}")).collect::<String>();
+        if self.open.len() > LONGEST_PATH {
+            path.push_str("/…");
+        }
         ParseFault { at, path, message: message.to_owned(), hint: hint.to_owned() }
     }
 }
