@@ -20,7 +20,7 @@ impl Default for SimParams {
             field_tolerance: 1e-9,
             rest_speed: 1e-5,
             rest_time: 1e-5,
-            contact_duration: 1e-5,
+            contact_duration: 4e-5,
             collapse_count: 32.0,
             contact_distance: 1e-9,
             core_radius: 1e-6,
@@ -85,9 +85,9 @@ pub const PARAMS: &[ParamInfo] = &[
         unit: "s",
         range: (0.0, 1.0),
         help: "Impacts of one body that follow each other within this time count as one cascade; see \
-               Collapse count. Two moving bodies that press against each other are looked at once in this \
-               time, so they overlap by at most ½·a·t²: 5e-10 m at the default on Earth. At 0 an inelastic \
-               collapse never ends.",
+               Collapse count. Two moving bodies that press against each other part for half of it at a \
+               time instead of touching without end, and overlap by less than the contact distance. At 0 \
+               an inelastic collapse never ends.",
         get: |p| p.contact_duration,
         set: |p, v| p.contact_duration = v,
     },

@@ -189,7 +189,8 @@ pub(super) fn record(state: &mut State, mut event: Event) {
     state.outbox.push_back(event);
 }
 
-/// An event of a dynamic body at a static one that exchanges no impulse.
+/// An event of a dynamic body at a static one that exchanges no impulse. A collapse is listed once, not
+/// with each of the contacts it makes and breaks.
 pub(super) fn record_contact(
     model: &Model,
     state: &mut State,
@@ -198,6 +199,9 @@ pub(super) fn record_contact(
     body: u32,
     fixture: u32,
 ) {
+    if state.is_in_collapse(model, body, time) {
+        return;
+    }
     let gap = sphere_fixture_gap(state.mover(model, body), &model.fixtures[fixture as usize], time);
     let event = Event {
         seq: 0,

@@ -6,7 +6,7 @@ use super::engine::{begin, in_id_order, record, restart};
 use super::lasting::{Hit, keep_contacts, settle};
 use super::model::Model;
 use super::neighbours::predict_all;
-use super::predict::Gap;
+use super::predict::{Gap, hold_time};
 use super::state::State;
 use super::{BodyRef, Event, EventKind, Fault};
 
@@ -21,28 +21,29 @@ pub(super) fn of_pair(
 ) -> Result<(), Fault> {
     let (info_a, info_b) = (&model.movers[a as usize], &model.movers[b as usize]);
     let cascades = [note_impact(model, state, a, time), note_impact(model, state, b, time)];
-    let (restitution, kind) = restitution(info_a.bounce * info_b.bounce, cascades.contains(&true));
+    let cascade = cascades[0].max(cascades[1]);
+    let closing = -gap.rate;
+    let parting = parting_speed(model, info_a.bounce * info_b.bounce, cascade, closing, gap);
     let reduced_mass = info_a.mass * info_b.mass / (info_a.mass + info_b.mass);
-    let impulse = -(1.0 + restitution) * reduced_mass * gap.rate;
-    // ΔE = ½ μ v_n² (1 − e²)
-    state
-        .account
-        .impact_losses
-        .add(0.5 * reduced_mass * gap.rate * gap.rate * (1.0 - restitution * restitution));
-    let event = Event {
-        seq: 0,
-        time,
-        kind,
-        a: BodyRef::Dynamic(a),
-        b: Some(BodyRef::Dynamic(b)),
-        point: gap.point,
-        normal: gap.normal,
-        impulse,
-        vn_before: gap.rate,
-        vn_after: -restitution * gap.rate,
-        group: next_group(state),
-    };
-    record(state, in_id_order(model, event));
+    let impulse = reduced_mass * (closing + parting);
+    // ΔE = ½ μ (v_n² − v_n'²)
+    state.account.impact_losses.add(0.5 * reduced_mass * (closing - parting) * (closing + parting));
+    if let Some(kind) = listed_kind(cascade) {
+        let event = Event {
+            seq: 0,
+            time,
+            kind,
+            a: BodyRef::Dynamic(a),
+            b: Some(BodyRef::Dynamic(b)),
+            point: gap.point,
+            normal: gap.normal,
+            impulse,
+            vn_before: gap.rate,
+            vn_after: parting,
+            group: next_group(state),
+        };
+        record(state, in_id_order(model, event));
+    }
 
     let starts = [(a, -impulse / info_a.mass), (b, impulse / info_b.mass)].map(|(body, change)| {
         let x = state.position(body, time);
@@ -70,15 +71,17 @@ pub(super) fn on_fixture(
     let info = &model.movers[body as usize];
     let cascade = note_impact(model, state, body, time);
     let natural = info.bounce * model.fixtures[fixture as usize].bounce;
-    let (restitution, kind) = restitution(natural, cascade);
+    let restitution = if cascade == Cascading::No { natural } else { natural.max(1.0) };
     let closing = -gap.rate;
     let before = state.velocity(body, time);
     let mut velocity = before - (1.0 + restitution) * closing * gap.normal;
     let position = state.position(body, time);
-    let hit = Hit { time, position, velocity, closing, restitution: natural };
+    let hit = Hit { time, position, velocity, closing, restitution };
     let settling = settle(model, state, body, fixture, &hit);
 
-    if closing > 0.0 {
+    if closing > 0.0
+        && let Some(kind) = listed_kind(cascade)
+    {
         let event = Event {
             seq: 0,
             time,
@@ -113,17 +116,48 @@ fn book_change(model: &Model, state: &mut State, body: u32, before: DVec3, after
     state.account.impulses.add(mass * (after - before));
 }
 
-/// Counts impacts in a row; true once there are so many that the rest of them must not lose energy.
-fn note_impact(model: &Model, state: &mut State, body: u32, time: f64) -> bool {
+/// Where an impact stands in a run of impacts of one body, each closely after the one before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Cascading {
+    /// The run is short.
+    No,
+    /// The run reaches its limit with this impact: the rest of it must not lose energy.
+    Begins,
+    Goes,
+}
+
+fn note_impact(model: &Model, state: &mut State, body: u32, time: f64) -> Cascading {
     let cascade = &mut state.cascades[body as usize];
     let follows = time - cascade.last_impact < model.params.contact_duration;
     cascade.length = if follows { cascade.length.saturating_add(1) } else { 0 };
     cascade.last_impact = time;
-    f64::from(cascade.length) >= model.params.collapse_count
+    match f64::from(cascade.length).total_cmp(&model.params.collapse_count) {
+        std::cmp::Ordering::Less => Cascading::No,
+        std::cmp::Ordering::Equal => Cascading::Begins,
+        std::cmp::Ordering::Greater => Cascading::Goes,
+    }
 }
 
-fn restitution(product: f64, collapsed: bool) -> (f64, EventKind) {
-    if collapsed && product < 1.0 { (1.0, EventKind::Collapse) } else { (product, EventKind::Impact) }
+/// The ledger lists a collapse once, not the impacts without end that follow in it.
+fn listed_kind(cascade: Cascading) -> Option<EventKind> {
+    match cascade {
+        Cascading::No => Some(EventKind::Impact),
+        Cascading::Begins => Some(EventKind::Collapse),
+        Cascading::Goes => None,
+    }
+}
+
+/// Speed at which two moving bodies part. In a cascade no energy is lost. Bodies that are driven together
+/// so hard that they would meet again at once part a little faster than e·v_n, for the hold time, but
+/// never faster than they met: the energy never grows, and they do not sink into each other.
+fn parting_speed(model: &Model, restitution: f64, cascade: Cascading, closing: f64, gap: &Gap) -> f64 {
+    let natural = restitution * closing;
+    if cascade != Cascading::No {
+        return natural.max(closing);
+    }
+    let pressing = (-gap.bend).max(0.0);
+    let shortest = pressing * hold_time(&model.params, pressing);
+    if natural < shortest { closing.min(shortest).max(natural) } else { natural }
 }
 
 fn next_group(state: &mut State) -> u64 {

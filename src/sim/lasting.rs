@@ -129,14 +129,37 @@ pub(super) fn settle(model: &Model, state: &State, body: u32, fixture: u32, hit:
         return None;
     }
     contact.settles_at = Some(hit.time + if has_limit { flights } else { 0.0 });
-    // What is left of the bounce is taken whole; the other surfaces must not be entered by that.
-    let level = hit.velocity - hit.velocity.dot(touch.towards) * touch.towards;
-    let touches: Vec<DVec3> = state.contacts[body as usize]
+    let others: Vec<DVec3> = state.contacts[body as usize]
         .iter()
         .map(|contact| contact.touch(model, mover.radius, hit.position, hit.velocity).towards)
-        .chain([touch.towards])
         .collect();
-    Some(Settling { contact, velocity: into_cone(level, &touches) })
+    let velocity = level_velocity(hit.velocity, touch.towards, &others, model.params.rest_speed);
+    Some(Settling { contact, velocity })
+}
+
+/// What is left of a velocity once its part along `towards` is taken whole, and the parts along the other
+/// surfaces too if they are as small: bounces in a wedge end together.
+fn level_velocity(velocity: DVec3, towards: DVec3, others: &[DVec3], rest_speed: f64) -> DVec3 {
+    let level = velocity - velocity.dot(towards) * towards;
+    if others.iter().any(|other| level.dot(*other).abs() > rest_speed) {
+        let all: Vec<DVec3> = others.iter().copied().chain([towards]).collect();
+        return into_cone(level, &all);
+    }
+    // Gram–Schmidt: an orthonormal basis of the normals, taken out one by one.
+    let mut basis = vec![towards];
+    let mut left = level;
+    for other in others {
+        let mut fresh = *other;
+        for unit in &basis {
+            fresh -= fresh.dot(*unit) * *unit;
+        }
+        if fresh.length() > 1e-6 {
+            let unit = fresh.normalize();
+            left -= left.dot(unit) * unit;
+            basis.push(unit);
+        }
+    }
+    if left.length() <= VELOCITY_ROUNDING * velocity.length() { DVec3::ZERO } else { left }
 }
 
 /// The rounding of a velocity: below this fraction of it a normal component is no motion.

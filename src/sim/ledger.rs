@@ -27,7 +27,8 @@ pub enum EventKind {
     LiftOff,
     /// A body passed a point attractor within the core radius.
     SingularPass,
-    /// An impact taken as elastic because it followed the last one within the contact duration.
+    /// Impacts of a body follow each other without end: from here on they keep their energy, and are not
+    /// listed until they have stopped.
     Collapse,
     /// The scene was edited while it ran.
     Edit,
@@ -65,7 +66,9 @@ impl EventKind {
             Self::Slide => "a body in contact began to move along the surface",
             Self::LiftOff => "a body in contact left the surface",
             Self::SingularPass => "a body passed a point attractor within the core radius",
-            Self::Collapse => "an impact was taken as elastic, it followed the last one too soon",
+            Self::Collapse => {
+                "impacts follow each other without end: they keep their energy and are not listed until that stops"
+            }
             Self::Edit => "the scene was edited while it ran",
         }
     }

@@ -176,8 +176,9 @@ pub(super) fn predict_pair(model: &Model, state: &mut State, a: u32, b: u32, fro
     // The order of the two must not matter to the last bit.
     let (a, b) = (a.min(b), a.max(b));
     state.counters.pair_tests += 1;
-    let hold = model.params.contact_duration;
-    if let Some(impact) = predict::sphere_sphere(state.mover(model, a), state.mover(model, b), hold, from) {
+    if let Some(impact) =
+        predict::sphere_sphere(state.mover(model, a), state.mover(model, b), &model.params, from)
+    {
         state.predict_pair(impact.max(time), a, b);
     }
 }

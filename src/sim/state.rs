@@ -141,6 +141,13 @@ impl State {
         self.queue.push(Predicted { time, kind: Kind::Impact, a, b, stamp_a, stamp_b });
     }
 
+    /// Whether a body is in a cascade of impacts that has been listed as a collapse.
+    pub fn is_in_collapse(&self, model: &Model, body: u32, time: f64) -> bool {
+        let cascade = self.cascades[body as usize];
+        f64::from(cascade.length) >= model.params.collapse_count
+            && time - cascade.last_impact < model.params.contact_duration
+    }
+
     pub fn is_touching(&self, body: u32, fixture: u32) -> bool {
         self.contacts[body as usize].iter().any(|contact| contact.fixture == fixture)
     }

@@ -8,6 +8,7 @@ use glam::DVec3;
 
 use super::model::{Fixture, FixtureShape};
 use super::segment::Path;
+use crate::scene::SimParams;
 
 pub(super) use sphere_plane::{Feature, closest_on_plate};
 
@@ -55,12 +56,23 @@ pub(super) fn touch_tolerance(at: DVec3, radius: f64) -> f64 {
     8.0 * f64::EPSILON * at.abs().max_element().max(radius)
 }
 
+/// How long two moving bodies that lie against each other are let go on before they are parted again, s.
+/// Under the closing acceleration a they overlap by ½·a·t² at most, half the contact distance.
+pub(super) fn hold_time(params: &SimParams, closing_acceleration: f64) -> f64 {
+    let longest = 0.25 * params.contact_duration;
+    if closing_acceleration > 0.0 {
+        longest.min((params.contact_distance / closing_acceleration).sqrt())
+    } else {
+        longest
+    }
+}
+
 /// First time, not before `from` nor before both segments begin and not after either ends, at which two
 /// dynamic spheres touch while closing. A pure function of its arguments; `from` is −∞ but for a search
 /// that goes on from where an earlier one gave up. A pair that lies against each other under pressure is
-/// let go on for `hold` seconds (its overlap stays below ½·a·hold²).
-pub(super) fn sphere_sphere(a: Mover<'_>, b: Mover<'_>, hold: f64, from: f64) -> Option<f64> {
-    sphere_sphere::first_contact(a, b, hold, from)
+/// let go on for [`hold_time`].
+pub(super) fn sphere_sphere(a: Mover<'_>, b: Mover<'_>, params: &SimParams, from: f64) -> Option<f64> {
+    sphere_sphere::first_contact(a, b, params, from)
 }
 
 pub(super) fn sphere_sphere_gap(a: Mover<'_>, b: Mover<'_>, time: f64) -> Gap {

@@ -3,7 +3,8 @@
 use glam::DVec3;
 
 use super::advance::{Search, first_contact as advance};
-use super::{Gap, Mover, snap, touch_tolerance};
+use super::{Gap, Mover, hold_time, snap, touch_tolerance};
+use crate::scene::SimParams;
 
 /// Relative motion of `b` as seen from `a`.
 struct Relative {
@@ -14,12 +15,12 @@ struct Relative {
     speeds: f64,
 }
 
-pub(super) fn first_contact(a: Mover<'_>, b: Mover<'_>, hold: f64, from: f64) -> Option<f64> {
+pub(super) fn first_contact(a: Mover<'_>, b: Mover<'_>, params: &SimParams, from: f64) -> Option<f64> {
     let (seg_a, seg_b) = (a.path.segment, b.path.segment);
     let from = seg_a.start.max(seg_b.start).max(from);
     let until = seg_a.end.min(seg_b.end);
     let relative = relative(a, b, from);
-    if pressed_together(a, b, &relative, hold) {
+    if let Some(hold) = pressed_together(a, b, &relative, params) {
         return Some(from + hold).filter(|time| *time <= until);
     }
     let parabolas = a.path.series.is_none() && b.path.series.is_none();
@@ -96,14 +97,16 @@ fn gap_of(relative: &Relative, at: DVec3, radius_a: f64, radius_b: f64) -> Gap {
     }
 }
 
-/// Two spheres that touch, hardly move against each other, and are driven together.
-fn pressed_together(a: Mover<'_>, b: Mover<'_>, relative: &Relative, hold: f64) -> bool {
+/// How long to hold two spheres that touch, hardly move against each other, and are driven together.
+fn pressed_together(a: Mover<'_>, b: Mover<'_>, relative: &Relative, params: &SimParams) -> Option<f64> {
     if relative.acceleration == DVec3::ZERO {
-        return false;
+        return None;
     }
     let gap = gap_of(relative, DVec3::ZERO, a.radius, b.radius);
     let slack = touch_tolerance(a.path.segment.x, a.radius).max(touch_tolerance(b.path.segment.x, b.radius));
-    gap.distance <= slack && gap.bend < 0.0 && gap.rate <= 0.0 && gap.rate >= 0.5 * gap.bend * hold
+    let hold = hold_time(params, -gap.bend);
+    let still = gap.rate <= 0.0 && gap.rate >= 1e-3 * gap.bend * hold;
+    (gap.distance <= slack && gap.bend < 0.0 && still).then_some(hold)
 }
 
 /// First τ ≥ 0 with |p + vτ| = R while closing, for a relative motion without acceleration.
