@@ -20,10 +20,11 @@ pub(super) fn of_pair(
     gap: &Gap,
 ) -> Result<(), Fault> {
     let (info_a, info_b) = (&model.movers[a as usize], &model.movers[b as usize]);
-    let cascades = [note_impact(model, state, a, time), note_impact(model, state, b, time)];
+    let natural = info_a.bounce * info_b.bounce;
+    let cascades = [a, b].map(|body| note_impact(model, state, body, time, natural));
     let cascade = cascades[0].max(cascades[1]);
     let closing = -gap.rate;
-    let parting = parting_speed(model, info_a.bounce * info_b.bounce, cascade, closing, gap);
+    let parting = parting_speed(model, natural, cascade, closing, gap);
     let reduced_mass = info_a.mass * info_b.mass / (info_a.mass + info_b.mass);
     let impulse = reduced_mass * (closing + parting);
     // ΔE = ½ μ (v_n² − v_n'²)
@@ -69,8 +70,8 @@ pub(super) fn on_fixture(
     gap: &Gap,
 ) -> Result<(), Fault> {
     let info = &model.movers[body as usize];
-    let cascade = note_impact(model, state, body, time);
     let natural = info.bounce * model.fixtures[fixture as usize].bounce;
+    let cascade = note_impact(model, state, body, time, natural);
     let restitution = if cascade == Cascading::No { natural } else { natural.max(1.0) };
     let closing = -gap.rate;
     let before = state.velocity(body, time);
@@ -126,7 +127,11 @@ enum Cascading {
     Goes,
 }
 
-fn note_impact(model: &Model, state: &mut State, body: u32, time: f64) -> Cascading {
+/// Counts an impact that loses energy; those that do not can't collapse.
+fn note_impact(model: &Model, state: &mut State, body: u32, time: f64, restitution: f64) -> Cascading {
+    if restitution >= 1.0 {
+        return if state.is_in_collapse(model, body, time) { Cascading::Goes } else { Cascading::No };
+    }
     let cascade = &mut state.cascades[body as usize];
     let follows = time - cascade.last_impact < model.params.contact_duration;
     cascade.length = if follows { cascade.length.saturating_add(1) } else { 0 };

@@ -137,11 +137,14 @@ pub(super) fn settle(model: &Model, state: &State, body: u32, fixture: u32, hit:
     Some(Settling { contact, velocity })
 }
 
+/// In a wedge the last bounces off its sides differ in speed by the wedge's angles, not by more than this.
+const WEDGE_SPEEDS: f64 = 10.0;
+
 /// What is left of a velocity once its part along `towards` is taken whole, and the parts along the other
-/// surfaces too if they are as small: bounces in a wedge end together.
+/// surfaces too if they are about as small: bounces in a wedge end together.
 fn level_velocity(velocity: DVec3, towards: DVec3, others: &[DVec3], rest_speed: f64) -> DVec3 {
     let level = velocity - velocity.dot(towards) * towards;
-    if others.iter().any(|other| level.dot(*other).abs() > rest_speed) {
+    if others.iter().any(|other| level.dot(*other).abs() > WEDGE_SPEEDS * rest_speed) {
         let all: Vec<DVec3> = others.iter().copied().chain([towards]).collect();
         return into_cone(level, &all);
     }

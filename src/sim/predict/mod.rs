@@ -57,11 +57,11 @@ pub(super) fn touch_tolerance(at: DVec3, radius: f64) -> f64 {
 }
 
 /// How long two moving bodies that lie against each other are let go on before they are parted again, s.
-/// Under the closing acceleration a they overlap by ½·a·t² at most, half the contact distance.
+/// Under the closing acceleration a they overlap by ½·a·t² at most, an eighth of the contact distance.
 pub(super) fn hold_time(params: &SimParams, closing_acceleration: f64) -> f64 {
     let longest = 0.25 * params.contact_duration;
     if closing_acceleration > 0.0 {
-        longest.min((params.contact_distance / closing_acceleration).sqrt())
+        longest.min(0.5 * (params.contact_distance / closing_acceleration).sqrt())
     } else {
         longest
     }
