@@ -1,22 +1,33 @@
 #!/usr/bin/env bash
-# Takes the pictures in screenshots/ again: every scene drawn without a window.
-# Usage: scripts/screenshots.sh
+# Takes the pictures in screenshots/ again: the window as a person sees it, and every scene drawn without a window.
+# Usage: scripts/screenshots.sh [PROGRAM]    (PROGRAM: a polyscene that is built already; else a release build)
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . scripts/lib/system-packages.sh
 
-need_rust
-need_compiler
 install_packages "${WINDOW_PACKAGES[@]}" "${TEST_PACKAGES[@]}"
-cargo build --release --locked
-polyscene=${CARGO_TARGET_DIR:-target}/release/polyscene
+if [ $# -gt 0 ]; then
+  polyscene=$1
+else
+  need_rust
+  need_compiler
+  cargo build --release --locked
+  polyscene=${CARGO_TARGET_DIR:-target}/release/polyscene
+fi
+mkdir -p screenshots/scenes
+
+# window NAME SCENE COMMANDS: the pointer of the display in memory rests below the window, so nothing is hovered.
+window() {
+  xvfb-run -a -s '-screen 0 1600x2200x24' "$polyscene" "scenes/$2.xml" --do "$3" \
+    --window-size 1600x1000 --screenshot "screenshots/$1.png"
+}
+window editor thesis-appendix-2 'dt:1,step_forward*5,next_event*3,select:5853'
+window tiles gas 'dt:1/10,step_forward*20,view_perspective,overlay:tiles,maximize_view'
 
 # Where a scene shows most, in seconds of model time; others are shown at 2 s.
 declare -A moment=([bullet]=0.0101 [cradle]=1 [orbit]=5)
-
-mkdir -p screenshots/scenes
 for scene in scenes/*.xml; do
   name=$(basename "$scene" .xml)
-  "$polyscene" render "$scene" --at "${moment[$name]:-2}" --size 1200x750 --out "screenshots/scenes/$name.png"
+  "$polyscene" render "$scene" --at "${moment[$name]:-2}" --size 800x500 --out "screenshots/scenes/$name.png"
 done

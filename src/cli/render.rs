@@ -1,16 +1,14 @@
 //! `polyscene render`: a picture of a scene without a window, a display or a GPU.
 
-use std::io::Cursor;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
-use image::{ImageFormat, RgbaImage};
 
 use super::{CliError, input, number};
 use crate::record::{Frame, InlineRunner, RunCommand, RunState, Runner as _};
-use crate::render::{Offscreen, RenderError, Tile, render_picture};
-use crate::scene::{Scene, write_atomically};
+use crate::render::{Offscreen, RenderError, Tile, render_picture, write_png};
+use crate::scene::Scene;
 use crate::sim::Fault;
 use crate::view::{
     Align, Camera, DrawList, Label, OVERLAYS, OverlaySet, Theme, VIEWS, ViewInput, ViewPreset, Viewport,
@@ -97,16 +95,7 @@ pub(super) fn render(args: &RenderArgs) -> Result<(), CliError> {
     let [r, g, b, _] = args.theme().palette().map_box.0;
     let picture = render_picture(&mut offscreen, args.size, [r, g, b, 255], &tiles)
         .map_err(|error| unusable(&error))?;
-    write_png(&picture, args)
-}
-
-/// Replaces the file in one go, so that nobody sees a part of a picture.
-fn write_png(picture: &RgbaImage, args: &RenderArgs) -> Result<(), CliError> {
-    let mut bytes = Cursor::new(Vec::new());
-    picture
-        .write_to(&mut bytes, ImageFormat::Png)
-        .map_err(|error| CliError::Usage(format!("can't make a PNG: {error}")))?;
-    write_atomically(&args.out, bytes.get_ref())
+    write_png(&args.out, picture.as_raw(), args.size)
         .map_err(|error| CliError::unwritable(args.out.display(), &error))
 }
 

@@ -13,6 +13,7 @@ use super::dialogs::NativeFileDialogs;
 use super::error::GuiError;
 use crate::editor::{Action, COMMANDS, Command, Storage};
 use crate::record::ThreadRunner;
+use crate::render::write_png;
 use crate::view::OVERLAYS;
 
 /// How the window opens.
@@ -283,7 +284,7 @@ fn take_picture(ctx: &Context, path: PathBuf, report: Arc<Mutex<Report>>) {
     let after = ctx.clone();
     ctx.request_screenshot(move |picture: Arc<egui::ColorImage>| {
         let [width, height] = picture.size.map(|side| side as u32);
-        let written = image::save_buffer(&path, picture.as_raw(), width, height, image::ColorType::Rgba8);
+        let written = write_png(&path, picture.as_raw(), [width, height]);
         if let Err(error) = written {
             let mut report = report.lock().unwrap_or_else(PoisonError::into_inner);
             report.failure = Some(format!("can't write {}: {error}", path.display()));

@@ -1,8 +1,13 @@
 //! Pictures of one or several views side by side.
 
-use image::RgbaImage;
+use std::io;
+use std::path::Path;
+
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{ExtendedColorType, ImageEncoder as _, RgbaImage};
 
 use super::{Offscreen, RenderError};
+use crate::scene::write_atomically;
 use crate::view::DrawList;
 
 /// A view's place in a picture, pixels from the top left corner.
@@ -26,4 +31,14 @@ pub fn render_picture(
         image::imageops::replace(&mut picture, &view, i64::from(tile.x), i64::from(tile.y));
     }
     Ok(picture)
+}
+
+/// Writes a PNG file in one go, so that nobody sees a part of it. Packed well: the smooth background
+/// takes eight times the room otherwise.
+pub fn write_png(path: &Path, rgba: &[u8], [width, height]: [u32; 2]) -> io::Result<()> {
+    let mut bytes = Vec::new();
+    PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::Adaptive)
+        .write_image(rgba, width, height, ExtendedColorType::Rgba8)
+        .map_err(io::Error::other)?;
+    write_atomically(path, &bytes)
 }
