@@ -30,9 +30,11 @@ mod tiles;
 
 // What looks on.
 mod account;
+mod candidates;
 mod hash;
 mod monitor;
 
+pub use candidates::CandidateSet;
 pub use edit::{EditRefused, SimEdit};
 pub use force::{Force, Subject};
 pub use ledger::{BodyRef, Event, EventKind};

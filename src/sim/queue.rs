@@ -111,3 +111,76 @@ impl Queue {
         self.sweep_at = 2 * self.heap.len();
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn predicted(time: f64, a: u32, stamp_a: u32) -> Predicted {
+        Predicted { time, kind: Kind::Impact, a, b: a + 1, stamp_a, stamp_b: 0 }
+    }
+
+    /// Random pushes, pops and changes of stamps, against a list that is searched anew each time.
+    #[test]
+    fn gives_what_a_searched_list_gives() {
+        let mut seed = 0x2545_f491_4f6c_dd1d_u64;
+        let mut random = move |below: u64| {
+            seed ^= seed << 13;
+            seed ^= seed >> 7;
+            seed ^= seed << 17;
+            (seed >> 11) % below
+        };
+        let mut queue = Queue::default();
+        let mut list: Vec<Predicted> = Vec::new();
+        let mut stamps = [0_u32; 50];
+        let mut popped = 0;
+        for _ in 0..60_000 {
+            match random(4) {
+                0 | 1 => {
+                    let body = random(50) as u32;
+                    // Few different times, so that ties are common.
+                    let next = predicted(random(40) as f64 * 0.25, body, stamps[body as usize]);
+                    queue.push(next);
+                    list.push(next);
+                }
+                2 => stamps[random(50) as usize] += 1,
+                _ => {
+                    let until = random(60) as f64 * 0.25;
+                    let holds = |p: &Predicted| stamps[p.a as usize] == p.stamp_a;
+                    list.retain(holds);
+                    let first = list.iter().copied().filter(|p| p.time <= until).min_by(Predicted::key_order);
+                    assert_eq!(queue.pop(until, &mut 0, holds), first);
+                    if let Some(first) = first {
+                        let at = list.iter().position(|p| *p == first).unwrap();
+                        list.remove(at);
+                        popped += 1;
+                    }
+                    queue.tidy(holds);
+                }
+            }
+        }
+        assert!(popped > 1000, "the test must exercise the queue: {popped}");
+    }
+
+    #[test]
+    fn order_of_insertion_does_not_matter() {
+        let events = [predicted(1.0, 3, 0), predicted(1.0, 1, 0), predicted(0.5, 9, 0), predicted(1.0, 2, 0)];
+        let order = |indices: [usize; 4]| {
+            let mut queue = Queue::default();
+            indices.into_iter().for_each(|index| queue.push(events[index]));
+            std::iter::from_fn(|| queue.pop(9.0, &mut 0, |_| true)).map(|p| p.a).collect::<Vec<_>>()
+        };
+        assert_eq!(order([0, 1, 2, 3]), [9, 1, 2, 3]);
+        assert_eq!(order([3, 2, 1, 0]), [9, 1, 2, 3]);
+    }
+
+    #[test]
+    fn stale_entries_do_not_pile_up() {
+        let mut queue = Queue::default();
+        for stamp in 0..200_000 {
+            queue.push(predicted(1e6, 0, stamp));
+            queue.tidy(|p| p.stamp_a == stamp);
+        }
+        assert!(queue.heap.len() <= 2 * SMALLEST_SWEEP, "{}", queue.heap.len());
+    }
+}

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::account::{self, present, subject};
+use super::candidates::{CandidateSet, candidate_sets};
 use super::compile::compile;
 use super::engine;
 use super::force::Force;
@@ -185,6 +186,17 @@ impl Simulation {
     /// The occupied tiles, at most `limit` of them.
     pub fn tiling(&self, limit: usize) -> Tiling {
         monitor::tiling(&self.model, &self.state, limit)
+    }
+
+    /// The dynamic bodies now, in sets of those that share tiles directly or through others, each with the
+    /// static bodies in its tiles.
+    pub fn candidate_sets(&self) -> Vec<CandidateSet> {
+        let (model, state) = (&self.model, &self.state);
+        candidate_sets(
+            present(model),
+            |body| state.registered[body as usize].tiles().map(|tile| model.grid.key(tile)).collect(),
+            |key| (state.moving.bodies(key), model.static_tiles.bodies(key)),
+        )
     }
 
     /// Applies a change now. Refused, everything is as it was.

@@ -108,3 +108,115 @@ fn plate_touches_box(plate: &Plate, low: DVec3, high: DVec3) -> bool {
         DVec3::AXES.into_iter().flat_map(|edge| [edge.cross(plate.axis_x), edge.cross(plate.axis_y)]);
     !DVec3::AXES.into_iter().chain([plate.normal]).chain(crosses).any(separated)
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use glam::DQuat;
+
+    use super::*;
+    use crate::scene::{Map, NodeKey};
+    use crate::sim::model::Identity;
+
+    struct Random(u64);
+
+    impl Random {
+        fn unit(&mut self) -> f64 {
+            self.0 ^= self.0 << 13;
+            self.0 ^= self.0 >> 7;
+            self.0 ^= self.0 << 17;
+            (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+        }
+
+        fn vector(&mut self, low: f64, high: f64) -> DVec3 {
+            DVec3::from_array(std::array::from_fn(|_| low + (high - low) * self.unit()))
+        }
+    }
+
+    fn fixture(position: DVec3, shape: FixtureShape) -> Fixture {
+        let identity = Identity { key: NodeKey(0), id: 0, label: Arc::from("0"), order: 0 };
+        Fixture { identity, bounce: 1.0, position, shape, present: true }
+    }
+
+    fn random_plate(random: &mut Random) -> (Fixture, Plate) {
+        let center = random.vector(-2.0, 12.0);
+        let turn = random.vector(-3.0, 3.0);
+        let frame = DQuat::from_scaled_axis(turn);
+        let plate = Plate {
+            center,
+            axis_x: frame * DVec3::X,
+            axis_y: frame * DVec3::Y,
+            normal: frame * DVec3::Z,
+            half_x: 0.05 + 4.0 * random.unit(),
+            half_y: 0.05 + 4.0 * random.unit(),
+        };
+        (fixture(center, FixtureShape::Plate(plate)), plate)
+    }
+
+    /// Every point of a plate lies in a tile that lists it; a listed tile has a point near the plate.
+    #[test]
+    fn plates_are_in_the_tiles_they_touch_and_in_no_others() {
+        let mut random = Random(7);
+        for counts in [[1, 1, 1], [10, 10, 10], [7, 31, 3]] {
+            let grid = Grid::new(&Map { size: DVec3::splat(10.0), tiles: counts }, 0.0);
+            for _ in 0..60 {
+                let (fixture, plate) = random_plate(&mut random);
+                let tiles = StaticTiles::new(&grid, &[fixture], 1_000_000);
+                for _ in 0..300 {
+                    let u = plate.half_x * (2.0 * random.unit() - 1.0);
+                    let v = plate.half_y * (2.0 * random.unit() - 1.0);
+                    let point = plate.center + u * plate.axis_x + v * plate.axis_y;
+                    let TileRange { low, .. } = grid.range(point, point);
+                    assert_eq!(tiles.bodies(grid.key(low)), [0], "{point} of {plate:?}");
+                }
+                for key in tiles.occupied() {
+                    assert!(samples_hit(&grid, key, &plate), "tile {key} lists {plate:?} in vain");
+                }
+            }
+        }
+    }
+
+    /// Whether the plate comes near a tile, by sampling the plate densely: a tile is a hundred times as
+    /// large as the samples are apart.
+    fn samples_hit(grid: &Grid, key: u64, plate: &Plate) -> bool {
+        const SAMPLES: i32 = 150;
+        let tile = grid.tile_of_key(key);
+        let (low, high) = grid.bounds(&TileRange { low: tile, high: tile });
+        let near = 4.0 / f64::from(SAMPLES) * plate.half_x.max(plate.half_y);
+        (-SAMPLES..=SAMPLES).any(|i| {
+            (-SAMPLES..=SAMPLES).any(|j| {
+                let (u, v) = (f64::from(i) / f64::from(SAMPLES), f64::from(j) / f64::from(SAMPLES));
+                let point = plate.center + u * plate.half_x * plate.axis_x + v * plate.half_y * plate.axis_y;
+                point.cmpge(low - near).all() && point.cmple(high + near).all()
+            })
+        })
+    }
+
+    #[test]
+    fn a_huge_plate_goes_to_the_list_of_large_ones() {
+        let grid = Grid::new(&Map { size: DVec3::splat(10.0), tiles: [1000, 1000, 1000] }, 0.0);
+        let plate = Plate {
+            center: DVec3::splat(5.0),
+            axis_x: DVec3::X,
+            axis_y: DVec3::Y,
+            normal: DVec3::Z,
+            half_x: 5.0,
+            half_y: 5.0,
+        };
+        let wall = fixture(plate.center, FixtureShape::Plate(plate));
+        let tiles = StaticTiles::new(&grid, &[wall], 4096);
+        assert_eq!(tiles.large(), [0]);
+        assert!(tiles.occupied().is_empty());
+    }
+
+    #[test]
+    fn spheres_leave_out_the_corners_of_their_boxes() {
+        let grid = Grid::new(&Map { size: DVec3::splat(10.0), tiles: [10, 10, 10] }, 0.0);
+        let ball = fixture(DVec3::splat(5.0), FixtureShape::Sphere { radius: 2.5 });
+        let tiles = StaticTiles::new(&grid, &[ball], 4096);
+        assert_eq!(tiles.bodies(grid.key([4, 4, 4])), [0]);
+        assert_eq!(tiles.bodies(grid.key([2, 5, 5])), [0]);
+        assert_eq!(tiles.bodies(grid.key([2, 2, 2])), [0_u32; 0]);
+    }
+}
