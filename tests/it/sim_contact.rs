@@ -185,3 +185,22 @@ fn resting_ball_is_pushed_by_another() {
         assert!((state.position - dvec3(x, 0.5, 5.0)).length() <= 1e-9, "{id}: {state:?}");
     }
 }
+
+#[test]
+fn ball_in_a_wedge_comes_to_rest() {
+    for tilt in [0.4_f64, 0.7, 1.1] {
+        let scene = empty()
+            .gravity(-9.8)
+            .plate(10, dvec3(5.0, 0.0, 5.0), dvec3(-FRAC_PI_2, tilt, 0.0), 30.0, 30.0)
+            .plate(11, dvec3(5.0, 0.0, 5.0), dvec3(-FRAC_PI_2, -tilt, 0.0), 30.0, 30.0)
+            .body(lossy(dvec3(5.2, 4.0, 5.0), DVec3::ZERO));
+        let mut sim = simulation(&scene);
+        advance(&mut sim, 30.0, Sampling::Every(0.1));
+        let lying = state_of(&sim, 2);
+        assert_eq!((lying.contact, lying.velocity), (ContactState::Rest, DVec3::ZERO), "tilt {tilt}");
+        // It touches both plates: its centre is r / cos(tilt) above the groove.
+        let expected = dvec3(5.0, 0.5 / tilt.cos(), 5.0);
+        assert!((lying.position - expected).length() <= 1e-9, "tilt {tilt}: {lying:?}");
+        assert_eq!(advance(&mut sim, 1e3, Sampling::Every(1e2)), []);
+    }
+}
