@@ -8,5 +8,4 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 need_rust
 need_compiler
-install_packages "${RENDER_PACKAGES[@]}"
 exec cargo bench --locked --bench "${1:-*}"
