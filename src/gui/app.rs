@@ -17,7 +17,7 @@ use super::toasts::Toasts;
 use super::transport::Transport;
 use super::tree::Tree;
 use super::viewport::{self, Canvas, Views};
-use super::{menu, shortcuts, start, status, theme};
+use super::{menu, shortcuts, start, status, strip, theme};
 use crate::editor::{Action, Command, Notice, Outcome, Request, Session, Storage};
 use crate::record::Runner;
 
@@ -50,6 +50,8 @@ pub struct App {
     pub(super) repaints: u64,
     pub(super) pace: Pace,
     pub(super) script: Option<Script>,
+    /// A window for a script remembers nothing.
+    pub(super) forgetful: bool,
 }
 
 /// Which list is shown below the views.
@@ -104,6 +106,7 @@ impl App {
             repaints: 0,
             pace: Pace { frame_s: 0.0 },
             script: None,
+            forgetful: false,
         }
     }
 
@@ -131,7 +134,7 @@ impl App {
             || egui::Popup::is_any_open(ctx)
             || self.views.is_dragging();
         if !blocked {
-            shortcuts::collect(ctx, &self.outbox);
+            shortcuts::collect(ctx, &self.outbox, self.views.have_focus(ctx));
         }
         let (dropped, focused, closing) = ctx.input(|input| {
             let dropped = input.raw.dropped_files.first().map(|file| file.path().to_owned());
@@ -210,6 +213,9 @@ impl App {
             .default_size(176.0)
             .size_range(60.0..=500.0)
             .show(ui, |ui| lists(ui, &context, &mut self.problems, &mut self.layout.tab));
+        egui::Panel::bottom("strip").frame(flush).exact_size(strip::HEIGHT).show(ui, |ui| {
+            strip::show(ui, &context);
+        });
         egui::Panel::left("tree").frame(flush).default_size(228.0).size_range(140.0..=460.0).show(ui, |ui| {
             self.tree.show(ui, &context);
         });
@@ -334,12 +340,15 @@ fn lists(ui: &mut Ui, context: &AppContext<'_>, problems: &mut Problems, tab: &m
         ui.horizontal(|ui| {
             let events = context.session.frame().events.len();
             ui.selectable_value(tab, Tab::Events, format!("Events of this Δt ({events})"));
-            let count = match (problems.errors(), problems.warnings()) {
-                (0, 0) => "Problems".to_owned(),
-                (0, warnings) => format!("Problems ({warnings} warnings)"),
-                (errors, 0) => format!("Problems ({errors} errors)"),
-                (errors, warnings) => format!("Problems ({errors} errors, {warnings} warnings)"),
+            let counted = |count: usize, what: &str| match count {
+                0 => None,
+                1 => Some(format!("1 {what}")),
+                _ => Some(format!("{count} {what}s")),
             };
+            let counts = [counted(problems.errors(), "error"), counted(problems.warnings(), "warning")];
+            let counts: Vec<String> = counts.into_iter().flatten().collect();
+            let count = if counts.is_empty() { String::new() } else { format!(" ({})", counts.join(", ")) };
+            let count = format!("Problems{count}");
             ui.selectable_value(tab, Tab::Problems, count);
             ui.take_available_width();
         });
@@ -366,7 +375,14 @@ impl eframe::App for App {
         self.run_script(&ctx);
     }
 
+    fn persist_egui_memory(&self) -> bool {
+        !self.forgetful
+    }
+
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        if self.forgetful {
+            return;
+        }
         self.layout.views = self.views.remembered();
         eframe::set_value(storage, STORAGE_KEY, &self.layout);
     }

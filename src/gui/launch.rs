@@ -78,8 +78,9 @@ pub fn run(options: Options) -> Result<Report, GuiError> {
         scripted.then(|| std::env::temp_dir().join("polyscene-scripted").join("no-such-file.ron"));
     let mut native = eframe::NativeOptions {
         viewport,
-        persist_window: options.window_size.is_none(),
-        persistence_path,
+        // a window for a script is as if it were the first one: it neither reads nor writes what was remembered
+        persist_window: !scripted && options.window_size.is_none(),
+        persistence_path: scripted.then(|| std::env::temp_dir().join(format!("polyscene-{}.ron", std::process::id()))),
         ..eframe::NativeOptions::default()
     };
     native.glow_options.vsync = !scripted;
@@ -91,6 +92,7 @@ pub fn run(options: Options) -> Result<Report, GuiError> {
         let files = Box::new(NativeFileDialogs::default());
         let mut app = App::new(cc, Parts { runner: Box::new(runner), storage, files, scene });
         app.script = Some(script);
+        app.forgetful = scripted;
         Ok(Box::new(app) as Box<dyn eframe::App>)
     };
     eframe::run_native("PolyScene", native, Box::new(creator))

@@ -16,6 +16,7 @@ mod problems;
 mod shortcuts;
 mod start;
 mod status;
+mod strip;
 mod theme;
 mod toasts;
 mod transport;

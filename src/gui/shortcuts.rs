@@ -6,8 +6,11 @@ use super::context::Outbox;
 use crate::editor::{Action, COMMANDS, Command, Key, Shortcut};
 
 /// Sends the commands whose keys were pressed in this turn.
-pub fn collect(ctx: &egui::Context, outbox: &Outbox) {
+///
+/// A button that has the keyboard takes the space bar for itself; a view (`view_focused`) leaves it.
+pub fn collect(ctx: &egui::Context, outbox: &Outbox, view_focused: bool) {
     let typing = ctx.text_edit_focused();
+    let on_button = !view_focused && ctx.memory(|memory| memory.focused().is_some());
     let mut pasted = None;
     let commands: Vec<Command> = ctx.input(|input| {
         let mut found = Vec::new();
@@ -16,6 +19,7 @@ pub fn collect(ctx: &egui::Context, outbox: &Outbox) {
                 Event::Copy if !typing => found.push(Command::Copy),
                 Event::Cut if !typing => found.push(Command::Cut),
                 Event::Paste(text) if !typing => pasted = Some(text.clone()),
+                Event::Key { key: egui::Key::Space, .. } if on_button => {}
                 Event::Key { key, pressed: true, modifiers, repeat, .. } => {
                     let command = command_of(*key, *modifiers, typing);
                     found.extend(command.filter(|command| !repeat || repeats(*command)));

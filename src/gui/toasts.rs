@@ -70,7 +70,7 @@ fn show_one(ui: &mut Ui, notice: &Notice) -> bool {
                     ui.set_max_width(420.0);
                     ui.label(RichText::new(&notice.text));
                 });
-                ui.small_button("✖").on_hover_text("Close").clicked()
+                ui.small_button("×").on_hover_text("Close").clicked()
             })
             .inner
         })

@@ -5,7 +5,7 @@ use egui::{RichText, TextEdit, Ui};
 use super::colors::tones;
 use super::context::AppContext;
 use super::viewport::Layout;
-use super::widgets::{command_button, icon_button};
+use super::widgets::{command_button, icon_button, severity_icon};
 use super::{icons, numbers};
 use crate::editor::{self, Action, Command};
 use crate::record::RunState;
@@ -139,7 +139,8 @@ fn state(ui: &mut Ui, context: &AppContext<'_>) {
         ui.label(RichText::new(text).color(color)).on_hover_text(help);
     }
     if context.session.needs_reset() {
-        let button = egui::Button::new(RichText::new("⚠ Reset to apply").color(tones.warning));
+        severity_icon(ui, false);
+        let button = egui::Button::new(RichText::new("Reset to apply").color(tones.warning));
         let help = "The scene was edited in a way that the running simulation can't take on: positions, \
                     velocities, new moving bodies, map or settings. Reset starts the edited scene (R).";
         if ui.add(button).on_hover_text(help).clicked() {

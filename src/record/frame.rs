@@ -58,6 +58,8 @@ pub struct Frame {
     pub time: f64,
     /// Number of the Δt being looked at: 0 at the start, k after the k-th.
     pub dt_index: u64,
+    /// Start and end of the Δt being looked at; `None` at the start.
+    pub step: Option<(f64, f64)>,
     /// When inside a Δt: its start and end.
     pub open_step: Option<(f64, f64)>,
     /// In UserID order.

@@ -39,6 +39,7 @@ fn with_run(base: Frame, run: &Run) -> Frame {
     Frame {
         time: simulation.time(),
         dt_index: run.grid.index(),
+        step: run.grid.span(),
         open_step: run.grid.open,
         bodies: bodies(simulation),
         events: run.rows.list.iter().cloned().collect(),

@@ -109,6 +109,12 @@ impl StepGrid {
         self.before + self.ticks + u64::from(self.open.is_some())
     }
 
+    /// Start and end of the Δt being looked at; `None` before the first.
+    pub(super) fn span(&self) -> Option<(f64, f64)> {
+        let at = |ticks: u64| self.origin + ticks as f64 * self.dt;
+        self.open.or_else(|| self.ticks.checked_sub(1).map(|before| (at(before), at(self.ticks))))
+    }
+
     /// Opens the next Δt at `now`; another Δt than before starts the grid anew there.
     fn open(&mut self, now: f64, dt: f64) {
         let expected = self.origin + self.ticks as f64 * self.dt;

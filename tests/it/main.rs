@@ -27,6 +27,14 @@ mod editor_recovery;
 mod editor_support;
 // Undo: one point per gesture, the document alone.
 mod editor_undo;
+// Editing in the window: by typing, by dragging, by commands, with undo.
+mod gui_edit;
+// Files in the window: start card, open, save, unsaved changes, the window's own dialog.
+mod gui_files;
+// The window's content without a window.
+mod gui_support;
+// The window as a whole: selecting, stepping, events, overlays, problems, shortcuts, rest.
+mod gui_window;
 // The rules of the source tree: layers, file sizes, function sizes.
 mod layering;
 // Runners: the Δt grid, going back, edits with their stamps, playing.

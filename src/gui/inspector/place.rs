@@ -113,7 +113,7 @@ fn param_row(ui: &mut Ui, context: &AppContext<'_>, scene: &Scene, param: &Param
     ui.label(RichText::new(param.unit).color(tones(ui).weak));
     if value != default {
         let name = format!("Reset {}", param.label);
-        let response = ui.small_button("⟲").on_hover_text("Back to the default").accessible_name(name);
+        let response = ui.small_button("↺").on_hover_text("Back to the default").accessible_name(name);
         if response.clicked() {
             let edit = with(param, scene, default);
             context.outbox.act(Action::Edit { edit, gesture: None });

@@ -101,7 +101,7 @@ impl Tree {
                 if std::mem::take(&mut self.wants_filter) {
                     response.request_focus();
                 }
-                if !self.filter.is_empty() && ui.small_button("✖").on_hover_text("Clear the filter").clicked()
+                if !self.filter.is_empty() && ui.small_button("×").on_hover_text("Clear the filter").clicked()
                 {
                     self.filter.clear();
                 }

@@ -107,6 +107,6 @@ fn draw_notes(painter: &egui::Painter, rect: Rect, list: &DrawList) {
     let palette = painter.ctx().style_of(painter.ctx().theme()).visuals.warn_fg_color;
     for (line, note) in list.notes.iter().enumerate() {
         let at = rect.left_top() + vec2(10.0, 32.0 + 15.0 * line as f32);
-        painter.text(at, Align2::LEFT_TOP, format!("⚠ {note}"), FontId::proportional(11.5), palette);
+        painter.text(at, Align2::LEFT_TOP, note, FontId::proportional(11.5), palette);
     }
 }

@@ -41,8 +41,6 @@ struct Moving {
     from: DVec2,
     grabbed: DVec3,
     offset: DVec3,
-    /// The drag was given up; wait for the button to be released.
-    abandoned: bool,
 }
 
 /// What the pointer is over.
@@ -223,7 +221,7 @@ impl Pane {
                 scenery.context.outbox.send(Message::Tell(text.to_owned()));
             }
             Some((drag, hit)) => {
-                let moving = Moving { drag, from, grabbed: hit.point, offset: DVec3::ZERO, abandoned: false };
+                let moving = Moving { drag, from, grabbed: hit.point, offset: DVec3::ZERO };
                 self.gestures.moving = Some(moving);
             }
             None => self.gestures.rubber = Some((at, at)),
@@ -262,13 +260,6 @@ impl Pane {
             *corner = at;
         }
         let Some(moving) = &mut self.gestures.moving else { return };
-        if ui.input(|input| input.key_pressed(Key::Escape)) {
-            moving.abandoned = true;
-            scenery.context.outbox.act(Action::AbandonGesture);
-        }
-        if moving.abandoned {
-            return;
-        }
         let to = ndc(&input.viewport, rect, at);
         let mut offset =
             drag_in_plane(&input.camera, input.viewport.aspect(), moving.grabbed, moving.from, to);
@@ -290,12 +281,12 @@ impl Pane {
 
     fn let_go(&mut self, ui: &Ui, rect: Rect, scenery: &Scenery<'_>, input: &ViewInput<'_>) {
         let outbox = scenery.context.outbox;
-        if let Some(moving) = self.gestures.moving.take()
-            && !moving.abandoned
-        {
-            outbox.act(Action::EndGesture);
+        // Escape ends every drag of egui's
+        let given_up = ui.input(|input| input.key_pressed(Key::Escape));
+        if self.gestures.moving.take().is_some() {
+            outbox.act(if given_up { Action::AbandonGesture } else { Action::EndGesture });
         }
-        if let Some((a, b)) = self.gestures.rubber.take() {
+        if let Some((a, b)) = self.gestures.rubber.take().filter(|_| !given_up) {
             let keys = pick_rect(input, ndc(&input.viewport, rect, a), ndc(&input.viewport, rect, b));
             let add = ui.input(|input| input.modifiers.command || input.modifiers.shift);
             outbox.act(if add { Action::AddToSelection(keys) } else { Action::Select(keys) });
@@ -313,7 +304,7 @@ impl Pane {
 
     /// How far a drag has gone and where to, in numbers.
     pub(super) fn draw_drag_text(&self, ui: &Ui, rect: Rect, scenery: &Scenery<'_>) {
-        let Some(moving) = self.gestures.moving.as_ref().filter(|moving| !moving.abandoned) else { return };
+        let Some(moving) = &self.gestures.moving else { return };
         let triple = |v: DVec3| {
             let [x, y, z] = v.to_array().map(|value| numbers::significant(value, 5));
             format!("({x}, {y}, {z})")

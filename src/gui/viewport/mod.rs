@@ -235,6 +235,12 @@ impl Views {
         }
     }
 
+    /// Whether one of the views has the keyboard.
+    pub fn have_focus(&self, ctx: &egui::Context) -> bool {
+        let focused = ctx.memory(|memory| memory.focused());
+        focused.is_some() && self.panes.iter().any(|pane| pane.id == focused)
+    }
+
     /// Turns the first view, for measuring.
     pub fn turn_first(&mut self, angle: f64) {
         let [first, ..] = &mut self.panes;

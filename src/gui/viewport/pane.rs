@@ -21,6 +21,8 @@ pub struct Pane {
     pub(super) gestures: Gestures,
     cache: ListCache,
     size: egui::Vec2,
+    /// The view as a widget, once it was shown.
+    pub(super) id: Option<egui::Id>,
 }
 
 /// What a turn of a view asks of the others.
@@ -41,6 +43,7 @@ impl Pane {
             gestures: Gestures::default(),
             cache: ListCache::default(),
             size: egui::vec2(400.0, 300.0),
+            id: None,
         }
     }
 
@@ -56,6 +59,7 @@ impl Pane {
             self.camera = self.preset.camera(bounds, self.aspect());
         }
         let id = ui.scope_id().with(("view", self.index));
+        self.id = Some(id);
         let response = ui.interact(rect, id, Sense::click_and_drag());
         let name = format!("{} view", look_name(&self.camera));
         response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, &name));

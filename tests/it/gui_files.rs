@@ -1,0 +1,137 @@
+//! Files in the window: the start card, open, save, the guard of unsaved changes, the window's own dialog.
+
+use egui::accesskit::Role;
+use egui::{Key, Modifiers};
+
+use super::gui_support::{Window, sample_path};
+use polyscene::editor::SAMPLES;
+
+#[test]
+fn an_empty_window_offers_samples() {
+    let mut window = Window::empty();
+    for sample in SAMPLES {
+        assert!(window.has(sample.title), "{}", sample.title);
+    }
+    window.click("Counting π");
+    assert!(window.harness.state().session().title().contains("counting-pi"));
+    assert!(!window.has("Empty scene"));
+}
+
+#[test]
+fn the_start_card_closes_for_an_empty_scene() {
+    let mut window = Window::empty();
+    window.click("Empty scene");
+    assert!(!window.has("Empty scene"));
+    window.menu("Add", "Dynamic sphere");
+    assert_eq!(window.scene().bodies.len(), 1);
+}
+
+#[test]
+fn saving_writes_the_edit_and_nothing_else() {
+    let mut window = Window::thesis();
+    let before = window.saved();
+    window.click_role(Role::TreeItem, "5853");
+    window.type_number("Mass", "2");
+    window.key_with(Modifiers::COMMAND, Key::S);
+    let after = window.saved();
+    let changed: Vec<(&str, &str)> = before.lines().zip(after.lines()).filter(|(a, b)| a != b).collect();
+    assert_eq!(changed, [("      <Weight F32=\"1\" />", "      <Weight F32=\"2\" />")]);
+    assert!(!window.harness.state().session().is_dirty());
+}
+
+#[test]
+fn unsaved_changes_are_guarded() {
+    let mut window = Window::thesis();
+    window.click_role(Role::TreeItem, "5853");
+    window.key(Key::Delete);
+    window.key_with(Modifiers::COMMAND, Key::N);
+    assert!(window.has("Unsaved changes"));
+    window.click_role(Role::Button, "Cancel");
+    assert_eq!(window.scene().bodies.len(), 12);
+    window.key_with(Modifiers::COMMAND, Key::N);
+    window.key(Key::Escape);
+    assert_eq!(window.scene().bodies.len(), 12);
+    window.key_with(Modifiers::COMMAND, Key::N);
+    window.click_role(Role::Button, "Save");
+    assert_eq!(window.scene().bodies.len(), 0);
+    assert!(!window.saved().contains("5853"));
+}
+
+#[test]
+fn closing_the_window_asks_first() {
+    let mut window = Window::thesis();
+    window.click_role(Role::TreeItem, "5853");
+    window.key(Key::Delete);
+    let viewport = window.harness.input_mut().viewports.entry(egui::ViewportId::ROOT).or_default();
+    viewport.events.push(egui::ViewportEvent::Close);
+    window.harness.run();
+    assert!(window.has("Unsaved changes"));
+    window.click_role(Role::Button, "Discard");
+}
+
+#[test]
+fn the_windows_own_dialog_opens_a_typed_path() {
+    let mut window = Window::thesis();
+    window.key_with(Modifiers::COMMAND, Key::O);
+    window.type_text("File name or path", sample_path("orbit").to_str().unwrap());
+    assert_eq!(window.harness.state().session().title(), "orbit.xml");
+}
+
+#[test]
+fn a_path_that_is_none_is_told_and_asked_again() {
+    let mut window = Window::thesis();
+    window.key_with(Modifiers::COMMAND, Key::O);
+    window.type_text("File name or path", "nowhere.xml");
+    assert!(window.has_containing("There is no file"));
+    window.click_role(Role::Button, "Cancel");
+    assert_eq!(window.harness.state().session().title(), "scene.xml");
+}
+
+#[test]
+fn save_as_asks_before_it_replaces() {
+    let mut window = Window::thesis();
+    let other = window.folder.path().join("other.xml");
+    std::fs::write(&other, "precious").unwrap();
+    window.key_with(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
+    window.type_text("File name or path", "other.xml");
+    assert_eq!(std::fs::read_to_string(&other).unwrap(), "precious");
+    assert!(window.has_containing("exists"));
+    window.click_role(Role::Button, "Save");
+    assert!(std::fs::read_to_string(&other).unwrap().contains("PolyPhysicsXml"));
+    assert_eq!(window.harness.state().session().title(), "other.xml");
+}
+
+#[derive(Debug)]
+struct Dropped(std::path::PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &std::path::Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|error| error.to_string())
+    }
+}
+
+#[test]
+fn a_dropped_file_is_opened() {
+    let mut window = Window::thesis();
+    let file = Dropped(sample_path("bounce"));
+    window.harness.input_mut().dropped_files.push(std::sync::Arc::new(file));
+    window.harness.run();
+    assert_eq!(window.harness.state().session().title(), "bounce.xml");
+}
+
+#[test]
+fn work_is_taken_over_as_the_start() {
+    let mut window = Window::thesis();
+    for _ in 0..5 {
+        window.key(Key::Period);
+    }
+    let now =
+        window.frame().bodies.iter().find(|body| body.key == window.body("15921").key).unwrap().position;
+    window.menu("Edit", "Take current state as start");
+    assert_eq!(window.body("15921").position, now);
+    assert_eq!(window.frame().time, 0.0);
+}
