@@ -118,9 +118,9 @@ fn bodies(row: &EventRow) -> String {
     if row.b_label.is_empty() { row.a_label.clone() } else { format!("{} – {}", row.a_label, row.b_label) }
 }
 
-/// Where in the Δt; known while it is open.
+/// Where in the Δt.
 fn share(frame: &Frame, time: f64) -> String {
-    match frame.open_step {
+    match frame.step {
         Some((from, to)) if to > from => format!("{:.0} %", 100.0 * (time - from) / (to - from)),
         _ => String::new(),
     }

@@ -75,12 +75,11 @@ pub fn run(options: Options) -> Result<Report, GuiError> {
         .with_min_inner_size([800.0, 500.0]);
     // a window for a script is as if it were the first one: it neither reads nor writes what was remembered
     let persistence_path =
-        scripted.then(|| std::env::temp_dir().join("polyscene-scripted").join("no-such-file.ron"));
+        scripted.then(|| std::env::temp_dir().join(format!("polyscene-{}.ron", std::process::id())));
     let mut native = eframe::NativeOptions {
         viewport,
-        // a window for a script is as if it were the first one: it neither reads nor writes what was remembered
         persist_window: !scripted && options.window_size.is_none(),
-        persistence_path: scripted.then(|| std::env::temp_dir().join(format!("polyscene-{}.ron", std::process::id()))),
+        persistence_path,
         ..eframe::NativeOptions::default()
     };
     native.glow_options.vsync = !scripted;

@@ -19,26 +19,22 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>, pace: &Pace) {
     ui.horizontal_centered(|ui| {
         ui.spacing_mut().item_spacing.x = 5.0;
         item(ui, "t", &format!("{:.6} s", frame.time), 92.0, "Model time");
-        item(ui, "Δt", &step_text(frame), 104.0, "Number of the Δt looked at, and how far it is open");
-        item(
-            ui,
-            "event",
-            &event_text(frame),
-            74.0,
-            "Events of this Δt so far; in all since the start in brackets",
-        );
-        item(ui, "bodies", &body_text(frame), 62.0, "Moving + static bodies in the simulation");
+        item(ui, "Δt", &step_text(frame), 82.0, "Number of the Δt looked at, and how far it is open");
+        let help = "Event of this Δt looked at, and how many it has; … while it is not finished";
+        item(ui, "event", &event_text(frame), 62.0, help);
+        item(ui, "in all", &numbers::count(frame.event_count), 46.0, "Events since the start");
+        item(ui, "bodies", &body_text(frame), 56.0, "Moving + static bodies in the simulation");
         let per_s = numbers::significant(frame.events_per_s, 3);
         item(ui, "events/s", &per_s, 48.0, "Events per second of computing, smoothed");
         residuals(ui, frame);
         let overlap = if frame.worst_overlap > 0.0 {
             format!("{} m", numbers::tiny(frame.worst_overlap))
         } else {
-            "0".to_owned()
+            "0 m".to_owned()
         };
         item(ui, "overlap", &overlap, 48.0, "Deepest overlap of any two bodies now, by looking at them all");
-        item(ui, "step", &numbers::duration(frame.step_wall_s), 56.0, "Computing time of the last Δt");
-        item(ui, "frame", &numbers::duration(pace.frame_s), 56.0, "Time the window took to draw itself last");
+        item(ui, "step", &numbers::duration(frame.step_wall_s), 58.0, "Computing time of the last Δt");
+        item(ui, "frame", &numbers::duration(pace.frame_s), 58.0, "Time the window took to draw itself last");
     });
 }
 
@@ -86,7 +82,8 @@ fn step_text(frame: &Frame) -> String {
 }
 
 fn event_text(frame: &Frame) -> String {
-    format!("{} [{}]", numbers::count(frame.events.len() as u64), numbers::count(frame.event_count))
+    let count = numbers::count(frame.events.len() as u64);
+    if frame.open_step.is_some() { format!("{count} of …") } else { format!("{count} of {count}") }
 }
 
 fn body_text(frame: &Frame) -> String {

@@ -31,6 +31,10 @@ mod editor_undo;
 mod gui_edit;
 // Files in the window: start card, open, save, unsaved changes, the window's own dialog.
 mod gui_files;
+// Pictures of the window: its views are drawn, and only when they change.
+mod gui_picture;
+// The real program in a real window: open, edit, step, save, close; and without a display.
+mod gui_real;
 // The window's content without a window.
 mod gui_support;
 // The window as a whole: selecting, stepping, events, overlays, problems, shortcuts, rest.

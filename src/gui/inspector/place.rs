@@ -86,19 +86,27 @@ fn plan(ui: &mut Ui, context: &AppContext<'_>) {
     if plan.motion.is_empty() {
         return;
     }
-    let text = format!(
-        "{} moving and {} static bodies; motion: {}; pairs: {}.{}",
-        plan.dynamic_bodies,
-        plan.static_bodies,
-        plan.motion,
-        if plan.pairs.is_empty() { "none".to_owned() } else { plan.pairs.join(", ") },
-        if plan.left_out.is_empty() {
-            String::new()
-        } else {
-            format!(" Left out, as nothing needs it: {}.", plan.left_out.join(", "))
+    let motion = match plan.motion {
+        "ballistic" => "parabolas in closed form",
+        _ => "integrated in the force field",
+    };
+    let pairs = if plan.pairs.is_empty() { "none".to_owned() } else { plan.pairs.join(", ") };
+    Grid::new("plan").num_columns(2).spacing([6.0, 3.0]).show(ui, |ui| {
+        ui.label("Motion").on_hover_text("How bodies move between events, as this scene needs it");
+        ui.label(RichText::new(motion).color(tones(ui).weak));
+        ui.end_row();
+        ui.label("Pairs").on_hover_text("Shapes that can meet in this scene");
+        ui.label(RichText::new(pairs).color(tones(ui).weak));
+        ui.end_row();
+        if !plan.left_out.is_empty() {
+            ui.label("Left out");
+            let text = format!("{} things nothing needs", plan.left_out.len());
+            let list =
+                plan.left_out.iter().map(|reason| format!("• {reason}")).collect::<Vec<_>>().join("\n");
+            ui.label(RichText::new(text).color(tones(ui).weak)).on_hover_text(list);
+            ui.end_row();
         }
-    );
-    ui.label(RichText::new(text).small().color(tones(ui).weak));
+    });
 }
 
 fn param_row(ui: &mut Ui, context: &AppContext<'_>, scene: &Scene, param: &ParamInfo) {

@@ -127,15 +127,20 @@ impl Tree {
                 if let Some(body) = shown.scene.bodies.get(*index) {
                     let detail = body_detail(body);
                     let marks = Marks { hidden: body.hidden, locked: body.locked };
-                    let looks = Looks { name: body.display_name(), detail: &detail, round: true, marks };
+                    let chip = Chip::of(body);
+                    let looks = Looks { name: body.display_name(), detail: &detail, chip, marks };
                     self.item_row(ui, context, shown, rows, *key, &looks);
                 }
             }
             Row::Force { index, key } => {
                 if let Some(force) = shown.scene.forces.get(*index) {
                     let marks = Marks { hidden: force.hidden, locked: force.locked };
-                    let looks =
-                        Looks { name: force_name(force), detail: force_kind(force), round: false, marks };
+                    let looks = Looks {
+                        name: force_name(force),
+                        detail: force_kind(force),
+                        chip: Chip::Diamond,
+                        marks,
+                    };
                     self.item_row(ui, context, shown, rows, *key, &looks);
                 }
             }
@@ -155,10 +160,11 @@ impl Tree {
         let (rect, response) = row_space(ui, selected, looks.name);
         let faded = if looks.marks.hidden { 0.5 } else { 1.0 };
         if let Some(color) = shown.color(key, context.palette()) {
-            let color = color32(color).gamma_multiply(faded);
-            let chip = Rect::from_center_size(pos2(rect.left() + 28.0, rect.center().y), vec2(10.0, 10.0));
-            let rounding = if looks.round { 5.0 } else { 1.0 };
-            ui.painter().rect_filled(chip, rounding, color);
+            looks.chip.paint(
+                ui,
+                pos2(rect.left() + 28.0, rect.center().y),
+                color32(color).gamma_multiply(faded),
+            );
         }
         let name_rect = Rect::from_min_max(pos2(rect.left() + 40.0, rect.top()), rect.max);
         if self.renaming.as_ref().is_some_and(|renaming| renaming.key == key) {
@@ -196,8 +202,43 @@ struct Marks {
 struct Looks<'a> {
     name: &'a str,
     detail: &'a str,
-    round: bool,
+    chip: Chip,
     marks: Marks,
+}
+
+/// What stands before a name: a shape that tells the kind, in the colour of the views.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Chip {
+    None,
+    Disc,
+    Ring,
+    Plate,
+    Diamond,
+}
+
+impl Chip {
+    fn of(body: &Body) -> Self {
+        match (&body.shape, body.is_dynamic()) {
+            (Shape::Sphere { .. }, true) => Self::Disc,
+            (Shape::Sphere { .. }, false) => Self::Ring,
+            (Shape::Plane { .. } | Shape::Unbuilt { .. }, _) => Self::Plate,
+        }
+    }
+
+    fn paint(self, ui: &Ui, center: egui::Pos2, color: egui::Color32) {
+        let painter = ui.painter();
+        let polygon = |corners: [(f32, f32); 4]| {
+            let corners = corners.map(|(x, y)| center + vec2(x, y)).to_vec();
+            painter.add(egui::Shape::convex_polygon(corners, color, egui::Stroke::NONE));
+        };
+        match self {
+            Self::None => {}
+            Self::Disc => drop(painter.circle_filled(center, 5.0, color)),
+            Self::Ring => drop(painter.circle_stroke(center, 4.0, egui::Stroke::new(2.0, color))),
+            Self::Plate => polygon([(-3.0, -4.0), (6.0, -4.0), (3.0, 4.0), (-6.0, 4.0)]),
+            Self::Diamond => polygon([(0.0, -5.5), (5.5, 0.0), (0.0, 5.5), (-5.5, 0.0)]),
+        }
+    }
 }
 
 fn body_detail(body: &Body) -> String {
@@ -206,6 +247,7 @@ fn body_detail(body: &Body) -> String {
         Shape::Plane { half_x, half_y } => {
             format!("{} × {} m", numbers::significant(2.0 * half_x, 4), numbers::significant(2.0 * half_y, 4))
         }
+        Shape::Unbuilt { ref element } if element.is_empty() => "no shape".to_owned(),
         Shape::Unbuilt { ref element } => format!("{element}, not simulated"),
     }
 }
@@ -299,7 +341,7 @@ fn place_row(ui: &mut Ui, context: &AppContext<'_>, place: Place) {
     let selected = context.session.selection().place() == Some(place);
     let (rect, response) = row_space(ui, selected, name);
     let marks = Marks { hidden: false, locked: false };
-    let looks = Looks { name, detail: &detail, round: false, marks };
+    let looks = Looks { name, detail: &detail, chip: Chip::None, marks };
     draw_name(ui, rect.with_min_x(rect.left() + 8.0).with_max_x(rect.right() + 44.0), &looks, selected, 1.0);
     if response.clicked() {
         context.outbox.act(Action::SelectPlace(place));

@@ -87,6 +87,9 @@ impl Pane {
         if response.drag_started_by(PointerButton::Primary) {
             self.take_hold(ui, rect, scenery, &input);
         }
+        if self.gestures.is_dragging() && ui.input(|input| input.key_pressed(Key::Escape)) {
+            self.give_up(scenery);
+        }
         if response.dragged_by(PointerButton::Primary) {
             self.pull(ui, response, rect, scenery, &input);
         }
@@ -281,16 +284,22 @@ impl Pane {
 
     fn let_go(&mut self, ui: &Ui, rect: Rect, scenery: &Scenery<'_>, input: &ViewInput<'_>) {
         let outbox = scenery.context.outbox;
-        // Escape ends every drag of egui's
-        let given_up = ui.input(|input| input.key_pressed(Key::Escape));
         if self.gestures.moving.take().is_some() {
-            outbox.act(if given_up { Action::AbandonGesture } else { Action::EndGesture });
+            outbox.act(Action::EndGesture);
         }
-        if let Some((a, b)) = self.gestures.rubber.take().filter(|_| !given_up) {
+        if let Some((a, b)) = self.gestures.rubber.take() {
             let keys = pick_rect(input, ndc(&input.viewport, rect, a), ndc(&input.viewport, rect, b));
             let add = ui.input(|input| input.modifiers.command || input.modifiers.shift);
             outbox.act(if add { Action::AddToSelection(keys) } else { Action::Select(keys) });
         }
+    }
+
+    /// Escape: everything is again as it was before the drag, whose rest does nothing.
+    fn give_up(&mut self, scenery: &Scenery<'_>) {
+        if self.gestures.moving.take().is_some() {
+            scenery.context.outbox.act(Action::AbandonGesture);
+        }
+        self.gestures.rubber = None;
     }
 
     pub(super) fn draw_rubber_band(&self, ui: &Ui, rect: Rect) {

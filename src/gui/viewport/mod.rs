@@ -237,7 +237,7 @@ impl Views {
 
     /// Whether one of the views has the keyboard.
     pub fn have_focus(&self, ctx: &egui::Context) -> bool {
-        let focused = ctx.memory(|memory| memory.focused());
+        let focused = ctx.memory(egui::Memory::focused);
         focused.is_some() && self.panes.iter().any(|pane| pane.id == focused)
     }
 

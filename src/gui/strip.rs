@@ -1,0 +1,149 @@
+//! The Δt being looked at, stretched to the width of the views: each event at its own time.
+
+use egui::{Align2, FontId, Pos2, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
+
+use super::colors::{Tones, color32, tones};
+use super::context::{AppContext, Message};
+use super::numbers::significant;
+use crate::editor::Action;
+use crate::record::{EventRow, Frame};
+use crate::sim::{BodyRef, EventKind};
+
+pub const HEIGHT: f32 = 30.0;
+
+/// How near the pointer must be to an event, points.
+const REACH: f32 = 6.0;
+
+pub fn show(ui: &mut Ui, context: &AppContext<'_>) {
+    let tones = tones(ui);
+    let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click());
+    response.widget_info(|| WidgetInfo::labeled(Role::Group, true, "Events in this Δt"));
+    let painter = ui.painter_at(rect);
+    painter.rect_filled(rect, 0.0, tones.heading);
+    let frame = context.session.frame();
+    let small = FontId::proportional(11.0);
+    let Some((from, to)) = frame.step.filter(|(from, to)| to > from) else {
+        let text = "The events of a Δt appear here at their times, once there is one";
+        painter.text(rect.left_center() + vec2(10.0, 0.0), Align2::LEFT_CENTER, text, small, tones.weak);
+        return;
+    };
+    let axis = Axis { line: axis_rect(ui, rect, frame, (from, to), &small, tones), from, to };
+    axis.draw(ui, frame, tones);
+    let hovered = response.hover_pos().and_then(|at| axis.nearest(frame, at));
+    for event in &frame.events {
+        let chosen = context.session.shown_event().is_some_and(|shown| shown.event.seq == event.event.seq);
+        let marked = hovered.is_some_and(|hovered| hovered.event.seq == event.event.seq);
+        let color = if chosen || marked { color32(context.palette().highlight) } else { tones.strong };
+        axis.mark(ui, frame, event, color, chosen || marked);
+    }
+    let Some(event) = hovered else { return };
+    let event = event.clone();
+    if response.clicked() {
+        let keys = [Some(event.a_key), event.b_key].into_iter().flatten().collect();
+        context.outbox.act(Action::Select(keys));
+        context.outbox.act(Action::ShowEvent(Some(event.clone())));
+    }
+    if response.double_clicked() {
+        context.outbox.send(Message::FramePlace(event.event.point));
+    }
+    response.on_hover_text_at_pointer(describe(&event));
+}
+
+/// Writes what the Δt is at both ends, and returns the room between.
+fn axis_rect(
+    ui: &Ui,
+    rect: Rect,
+    frame: &Frame,
+    (from, to): (f64, f64),
+    font: &FontId,
+    tones: Tones,
+) -> Rect {
+    let painter = ui.painter_at(rect);
+    let left = format!("Δt {}   {} s", frame.dt_index, significant(from, 8));
+    let right = format!("{} s", significant(to, 8));
+    let middle = rect.center().y;
+    let at = pos2(rect.left() + 10.0, middle);
+    let left = painter.text(at, Align2::LEFT_CENTER, left, font.clone(), tones.weak);
+    let at = pos2(rect.right() - 10.0, middle);
+    let right = painter.text(at, Align2::RIGHT_CENTER, right, font.clone(), tones.weak);
+    // the same width for every Δt, so that the marks do not jump
+    let inset = left.width().max(right.width()).max(120.0) + 20.0;
+    Rect::from_min_max(
+        pos2(rect.left() + inset, rect.top() + 4.0),
+        pos2(rect.right() - inset, rect.bottom() - 4.0),
+    )
+}
+
+/// The stretch of the screen that stands for the Δt.
+struct Axis {
+    line: Rect,
+    from: f64,
+    to: f64,
+}
+
+impl Axis {
+    fn x(&self, time: f64) -> f32 {
+        let share = ((time - self.from) / (self.to - self.from)).clamp(0.0, 1.0);
+        self.line.left() + self.line.width() * share as f32
+    }
+
+    /// The line, and how far the Δt is gone through.
+    fn draw(&self, ui: &Ui, frame: &Frame, tones: Tones) {
+        let painter = ui.painter();
+        let bottom = self.line.bottom() - 2.0;
+        painter.hline(self.line.x_range(), bottom, Stroke::new(2.0, tones.line));
+        let now = self.x(frame.time);
+        painter.hline(self.line.left()..=now, bottom, Stroke::new(2.0, tones.accent));
+        for x in [self.line.left(), self.line.right()] {
+            painter.vline(x, bottom - 5.0..=bottom, Stroke::new(1.0, tones.weak));
+        }
+        if frame.open_step.is_some() {
+            painter.vline(now, self.line.y_range(), Stroke::new(1.0, tones.accent));
+        }
+    }
+
+    /// A stem as high as the impulse is large; its head tells who met: a disc for two moving bodies, a
+    /// square for one at a static body, a diamond for what is no impact.
+    fn mark(&self, ui: &Ui, frame: &Frame, row: &EventRow, color: egui::Color32, large: bool) {
+        let event = &row.event;
+        let largest = frame.events.iter().map(|row| row.event.impulse).fold(0.0, f64::max);
+        let share = if largest > 0.0 { (event.impulse / largest).sqrt() } else { 0.0 };
+        let bottom = self.line.bottom() - 2.0;
+        let height = 5.0 + (self.line.height() - 10.0) * share as f32;
+        let head = pos2(self.x(event.time), bottom - height);
+        let painter = ui.painter();
+        painter.line_segment([pos2(head.x, bottom), head], Stroke::new(if large { 2.0 } else { 1.0 }, color));
+        let size = if large { 4.5 } else { 3.0 };
+        let is_impact = matches!(event.kind, EventKind::Impact | EventKind::Collapse);
+        match (is_impact, event.b) {
+            (true, Some(BodyRef::Dynamic(_))) => drop(painter.circle_filled(head, size, color)),
+            (true, _) => {
+                painter.rect_filled(Rect::from_center_size(head, vec2(1.8, 1.8) * size), 0.0, color);
+            }
+            (false, _) => {
+                let corners = [vec2(0.0, -size), vec2(size, 0.0), vec2(0.0, size), vec2(-size, 0.0)];
+                let corners = corners.map(|corner| head + corner * 1.3).to_vec();
+                painter.add(egui::Shape::convex_polygon(corners, color, Stroke::NONE));
+            }
+        }
+    }
+
+    fn nearest<'a>(&self, frame: &'a Frame, at: Pos2) -> Option<&'a std::sync::Arc<EventRow>> {
+        let distance = |row: &EventRow| (self.x(row.event.time) - at.x).abs();
+        let near = frame.events.iter().filter(|row| distance(row) < REACH);
+        near.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    }
+}
+
+fn describe(row: &EventRow) -> String {
+    let event = &row.event;
+    let kind = event.kind.name().replace('_', " ");
+    let with = if row.b_label.is_empty() { String::new() } else { format!(" – {}", row.b_label) };
+    format!(
+        "{} {kind}: {}{with}\nt = {:.9} s, {} N·s",
+        event.seq,
+        row.a_label,
+        event.time,
+        significant(event.impulse, 6)
+    )
+}

@@ -1,0 +1,187 @@
+//! The real program in a real window on a display in memory, driven as a person would.
+
+use std::io::{BufRead as _, BufReader};
+use std::net::{TcpListener, TcpStream};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use egui::accesskit::{Node, Role};
+use egui::{Event, Key, Modifiers, PointerButton, Pos2};
+use egui_inspection::{Request, Response, protocol};
+
+use super::gui_support::sample_path;
+
+/// Ends with the test, however it ends.
+struct Killed(Child);
+
+impl Drop for Killed {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// A display: the one there is, or one of our own in memory.
+fn display() -> (String, Option<Killed>) {
+    if let Ok(display) = std::env::var("DISPLAY")
+        && !display.is_empty()
+    {
+        return (display, None);
+    }
+    let mut server = Command::new("Xvfb")
+        .args(["-displayfd", "1", "-screen", "0", "1400x900x24", "-nolisten", "tcp"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("Xvfb, which scripts/test.sh installs");
+    let mut number = String::new();
+    BufReader::new(server.stdout.take().unwrap()).read_line(&mut number).unwrap();
+    (format!(":{}", number.trim()), Some(Killed(server)))
+}
+
+struct Driver {
+    stream: TcpStream,
+}
+
+impl Driver {
+    fn connect(address: &str) -> Self {
+        let since = Instant::now();
+        loop {
+            if let Ok(mut stream) = TcpStream::connect(address) {
+                stream.set_read_timeout(Some(Duration::from_secs(60))).unwrap();
+                protocol::read_handshake(&mut stream).unwrap();
+                return Self { stream };
+            }
+            assert!(since.elapsed() < Duration::from_secs(60), "the window did not open");
+            std::thread::sleep(Duration::from_millis(50));
+        }
+    }
+
+    fn ask(&mut self, request: &Request) -> Response {
+        protocol::write_message(&mut self.stream, request).unwrap();
+        protocol::read_message(&mut self.stream).unwrap()
+    }
+
+    fn find(&mut self, role: Role, label: &str) -> Option<Node> {
+        let Response::Tree { accesskit: Some(tree), .. } = self.ask(&Request::GetTree) else {
+            panic!("no tree of widgets");
+        };
+        let fits =
+            |node: &Node| node.role() == role && (node.label() == Some(label) || node.value() == Some(label));
+        tree.nodes.into_iter().map(|(_, node)| node).find(|node| fits(node))
+    }
+
+    /// Waits until it is there: the simulation has a thread of its own.
+    fn wait(&mut self, role: Role, label: &str) -> Node {
+        let since = Instant::now();
+        loop {
+            if let Some(node) = self.find(role, label) {
+                return node;
+            }
+            assert!(since.elapsed() < Duration::from_secs(30), "no {role:?} “{label}”");
+            std::thread::sleep(Duration::from_millis(50));
+        }
+    }
+
+    fn events(&mut self, events: Vec<Event>) {
+        assert!(matches!(self.ask(&Request::ApplyEvents { events }), Response::Done));
+        self.ask(&Request::Settle { max_steps: 30 });
+    }
+
+    fn click(&mut self, role: Role, label: &str) {
+        let bounds = self.wait(role, label).bounds().expect("a place");
+        let pos = Pos2::new(((bounds.x0 + bounds.x1) / 2.0) as f32, ((bounds.y0 + bounds.y1) / 2.0) as f32);
+        self.events(vec![Event::PointerMoved(pos)]);
+        let (button, modifiers) = (PointerButton::Primary, Modifiers::NONE);
+        for pressed in [true, false] {
+            self.events(vec![Event::PointerButton { pos, button, pressed, modifiers }]);
+        }
+    }
+
+    fn key(&mut self, key: Key, modifiers: Modifiers) {
+        for pressed in [true, false] {
+            let event = Event::Key { key, physical_key: None, pressed, repeat: false, modifiers };
+            self.events(vec![event]);
+        }
+    }
+
+    fn type_number(&mut self, label: &str, text: &str) {
+        self.click(Role::SpinButton, label);
+        self.key(Key::A, Modifiers::COMMAND);
+        self.events(vec![Event::Text(text.to_owned())]);
+        self.key(Key::Enter, Modifiers::NONE);
+    }
+}
+
+#[test]
+fn a_scene_is_opened_edited_stepped_saved_and_closed() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scene.xml");
+    std::fs::copy(sample_path("thesis-appendix-2"), &path).unwrap();
+    let (display, _server) = display();
+    let port = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
+    let address = format!("127.0.0.1:{port}");
+    let program = Command::new(env!("CARGO_BIN_EXE_polyscene"))
+        .arg(&path)
+        .args(["--window-size", "1280x800"])
+        .env("DISPLAY", display)
+        .env_remove("WAYLAND_DISPLAY")
+        .env("EGUI_INSPECTION", &address)
+        .env("HOME", folder.path())
+        .env("XDG_CONFIG_HOME", folder.path().join("config"))
+        .env("XDG_DATA_HOME", folder.path().join("data"))
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let mut program = Killed(program);
+    let mut driver = Driver::connect(&address);
+
+    driver.click(Role::TreeItem, "5853");
+    driver.type_number("Mass", "2,5");
+    driver.click(Role::Button, "Next event");
+    driver.wait(Role::Label, "5853 – 8855");
+    let Response::Screenshot(picture) = driver.ask(&Request::GetScreenshot { pixels_per_point: None }) else {
+        panic!("no picture");
+    };
+    let picture = image::load_from_memory(&picture.bytes).unwrap().to_rgba8();
+    let blue = picture.pixels().filter(|pixel| pixel.0[2] > pixel.0[0].saturating_add(80)).count();
+    assert!(blue > 2000, "the blue sphere is seen in four views: {blue} pixels");
+
+    driver.key(Key::S, Modifiers::COMMAND);
+    driver.wait(Role::Label, "Saved scene.xml");
+    let saved = std::fs::read_to_string(&path).unwrap();
+    assert!(saved.contains("<Weight F32=\"2,5\" />"), "the comma is kept");
+    assert_eq!(saved.matches("<Weight F32=\"1\" />").count(), 2);
+
+    let quit = Event::Key {
+        key: Key::Q,
+        physical_key: None,
+        pressed: true,
+        repeat: false,
+        modifiers: Modifiers::COMMAND,
+    };
+    protocol::write_message(&mut driver.stream, &Request::ApplyEvents { events: vec![quit] }).unwrap();
+    let since = Instant::now();
+    let status = loop {
+        if let Some(status) = program.0.try_wait().unwrap() {
+            break status;
+        }
+        assert!(since.elapsed() < Duration::from_secs(20), "the window does not close");
+        std::thread::sleep(Duration::from_millis(50));
+    };
+    assert!(status.success());
+}
+
+#[test]
+fn without_a_display_the_editor_says_what_to_do() {
+    let output = Command::new(env!("CARGO_BIN_EXE_polyscene"))
+        .arg(sample_path("orbit"))
+        .env_remove("DISPLAY")
+        .env_remove("WAYLAND_DISPLAY")
+        .env_remove("WAYLAND_SOCKET")
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    let text = String::from_utf8(output.stderr).unwrap();
+    assert!(text.contains("polyscene run") && text.contains("polyscene render"), "{text}");
+}
