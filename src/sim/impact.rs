@@ -21,7 +21,7 @@ pub(super) fn of_pair(
 ) -> Result<(), Fault> {
     let (info_a, info_b) = (&model.movers[a as usize], &model.movers[b as usize]);
     let natural = info_a.bounce * info_b.bounce;
-    let cascades = [a, b].map(|body| note_impact(model, state, body, time, natural));
+    let cascades = [a, b].map(|body| note_pair_impact(model, state, body, time, natural));
     let cascade = cascades[0].max(cascades[1]);
     let closing = -gap.rate;
     let parting = parting_speed(model, natural, cascade, closing, gap);
@@ -71,7 +71,7 @@ pub(super) fn on_fixture(
 ) -> Result<(), Fault> {
     let info = &model.movers[body as usize];
     let natural = info.bounce * model.fixtures[fixture as usize].bounce;
-    let cascade = note_impact(model, state, body, time, natural);
+    let cascade = if state.is_in_collapse(model, body, time) { Cascading::Goes } else { Cascading::No };
     let restitution = if cascade == Cascading::No { natural } else { natural.max(1.0) };
     let closing = -gap.rate;
     let before = state.velocity(body, time);
@@ -127,8 +127,9 @@ enum Cascading {
     Goes,
 }
 
-/// Counts an impact that loses energy; those that do not can't collapse.
-fn note_impact(model: &Model, state: &mut State, body: u32, time: f64, restitution: f64) -> Cascading {
+/// Counts an impact of two moving bodies that loses energy. Others make no collapse: elastic ones go on
+/// anyway, and a lone body comes to rest on what is fixed.
+fn note_pair_impact(model: &Model, state: &mut State, body: u32, time: f64, restitution: f64) -> Cascading {
     if restitution >= 1.0 {
         return if state.is_in_collapse(model, body, time) { Cascading::Goes } else { Cascading::No };
     }

@@ -79,7 +79,7 @@ impl Simulation {
     }
 
     /// Goes to the next event not after the time given to [`Self::begin`] and reports it; `None` when
-    /// there is none left: then now is still the last event's time, until [`Self::finish`].
+    /// there is none left: then that time is reached and is now.
     ///
     /// After a fault it goes no further and gives the same fault again.
     pub fn next_event(&mut self) -> Result<Option<Event>, Fault> {
@@ -93,7 +93,10 @@ impl Simulation {
             }
             match engine::advance(&self.model, &mut self.state) {
                 Ok(true) => {}
-                Ok(false) => return Ok(None),
+                Ok(false) => {
+                    self.state.now = self.state.until;
+                    return Ok(None);
+                }
                 Err(fault) => self.fault = Some(fault),
             }
         }
@@ -104,7 +107,6 @@ impl Simulation {
         while let Some(event) = self.next_event()? {
             on_event(self, &event);
         }
-        self.state.now = self.state.until;
         Ok(())
     }
 

@@ -52,6 +52,10 @@ const LONGEST_STEP: f64 = 100.0;
 /// a body whose acceleration fades (drag at terminal speed) is not integrated to digits nobody can see.
 const SPEED_FLOOR: f64 = 1e-3;
 
+/// By how much the divided differences enlarge the rounding of an acceleration in b₆: 1/Π(h₇ − hₖ) and a
+/// few of the same size.
+const NOISE_GAIN: f64 = 1e3;
+
 /// Where a step begins.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::sim) struct RadauStart<'a> {
@@ -141,6 +145,7 @@ fn correct(
     let mut last_change = f64::INFINITY;
     let mut converged = false;
     let mut largest = a0.length();
+    let mut noise = 0.0;
     for _ in 0..MAX_PASSES {
         let mut change = 0.0;
         largest = a0.length();
@@ -159,11 +164,13 @@ fn correct(
             }
             if n == SERIES {
                 change = delta.length();
+                noise = NOISE_GAIN * rounding_of(a - a0, x - start.x, start.x);
             }
         }
         let relative = change / scale(largest, start.v, step);
         // The corrector stops at rounding, or when rounding keeps it from coming nearer.
-        if relative <= CONVERGED || (relative < 1e-12 && relative >= last_change) {
+        let stagnant = (noise / scale(largest, start.v, step)).max(1e-12);
+        if relative <= CONVERGED || (relative < stagnant && relative >= last_change) {
             converged = true;
             break;
         }
@@ -173,7 +180,16 @@ fn correct(
         last_change = relative;
     }
     converged |= last_change < 1e-3 * start.tolerance;
-    Attempt { series, converged, error: series.b[SERIES - 1].length() / scale(largest, start.v, step) }
+    let last = (series.b[SERIES - 1].length() - noise).max(0.0);
+    Attempt { series, converged, error: last / scale(largest, start.v, step) }
+}
+
+/// What the rounding of the position does to an acceleration that changes by `rise` over `way`, m/s².
+/// Near the core of an attractor far from the origin it exceeds any tolerance, and no step is short
+/// enough to meet that.
+fn rounding_of(rise: DVec3, way: DVec3, position: DVec3) -> f64 {
+    let way = way.length();
+    if way > 0.0 { f64::EPSILON * position.length() * rise.length() / way } else { 0.0 }
 }
 
 fn scale(largest_acceleration: f64, v: DVec3, step: f64) -> f64 {
