@@ -95,7 +95,7 @@ pub fn run(options: Options) -> Result<Report, GuiError> {
         Ok(Box::new(app) as Box<dyn eframe::App>)
     };
     eframe::run_native("PolyScene", native, Box::new(creator))
-        .map_err(|error| GuiError::NoWindow(error.to_string()))?;
+        .map_err(|error| GuiError::NoWindow(without_source_place(&error.to_string())))?;
     let report = report.lock().unwrap_or_else(PoisonError::into_inner).clone();
     match report.failure {
         Some(reason) => Err(GuiError::Script(reason)),
@@ -279,6 +279,14 @@ impl App {
             Some((since, _)) => now - since >= REST,
         }
     }
+}
+
+/// winit's errors name the place in its source where they arose (`os error at FILE:LINE: reason`), which
+/// tells a user nothing.
+fn without_source_place(message: &str) -> String {
+    let reason = message.split_once("os error at ").and_then(|(_, rest)| rest.split_once(".rs:"));
+    let reason = reason.and_then(|(_, rest)| rest.split_once(": "));
+    reason.map_or(message, |(_, reason)| reason).trim_end_matches('.').into()
 }
 
 fn take_picture(ctx: &Context, path: PathBuf, report: Arc<Mutex<Report>>) {

@@ -1,5 +1,6 @@
 //! One line of the states file and one of the events file.
 
+use glam::DVec3;
 use serde::Serialize;
 
 use crate::sim::{Event, Simulation};
@@ -25,8 +26,8 @@ impl<'a> StateRow<'a> {
             let state = sim.state(body)?;
             Some(BodyRow {
                 id: sim.label(body),
-                x: state.position.to_array(),
-                v: state.velocity.to_array(),
+                x: numbers(state.position),
+                v: numbers(state.velocity),
                 state: state.contact.name(),
             })
         });
@@ -59,8 +60,8 @@ impl<'a> EventRow<'a> {
             kind: event.kind.name(),
             a: sim.label(event.a),
             b: event.b.map(|b| sim.label(b)),
-            point: event.point.to_array(),
-            normal: event.normal.to_array(),
+            point: numbers(event.point),
+            normal: numbers(event.normal),
             impulse: event.impulse,
             vn_before: event.vn_before,
             vn_after: event.vn_after,
@@ -68,4 +69,9 @@ impl<'a> EventRow<'a> {
             dt_index,
         }
     }
+}
+
+/// To a reader −0 is 0.
+fn numbers(vector: DVec3) -> [f64; 3] {
+    (vector + DVec3::ZERO).to_array()
 }

@@ -78,3 +78,17 @@ fn the_scenes_that_come_with_the_program_are_sound() {
     let outcome = Bench::new().polyscene(&[&["check"], &names[..]].concat());
     assert_eq!((outcome.code, outcome.stdout.as_str()), (0, ""), "{}", outcome.stderr);
 }
+
+#[test]
+fn each_invalid_scene_has_an_error_with_its_file() {
+    let files = scene_files(&scenes_folder().join("invalid"));
+    let names: Vec<&str> = files.iter().map(|file| file.to_str().expect("UTF-8 paths")).collect();
+    let outcome = Bench::new().polyscene(&[&["check"], &names[..]].concat());
+    assert_eq!(outcome.code, 1);
+    for (file, name) in files.iter().zip(&names) {
+        let mut own = outcome.stdout.lines().filter(|line| line.starts_with(&format!("{name}:")));
+        let is_warning = file.file_name().is_some_and(|name| name.to_string_lossy().starts_with("warning-"));
+        let found = own.any(|line| line.contains(": error: "));
+        assert_eq!(found, !is_warning, "{name}");
+    }
+}

@@ -2,6 +2,7 @@
 
 mod any_bytes;
 mod check;
+mod readme;
 mod run;
 mod streams;
 mod usage;

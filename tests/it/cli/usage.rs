@@ -74,6 +74,7 @@ fn without_a_display_the_editor_names_the_verbs_that_need_none() {
     let bench = Bench::with_scene(BOUNCE);
     let outcome = bench.polyscene(&["scene.xml"]);
     assert_eq!(outcome.code, 2, "{}", outcome.stderr);
+    assert!(!outcome.stderr.contains(".rs"), "no place in somebody's source: {}", outcome.stderr);
     for word in ["polyscene run", "polyscene render"] {
         assert!(outcome.stderr.contains(word), "{}", outcome.stderr);
     }
