@@ -2,7 +2,7 @@
 
 mod any_bytes;
 mod check;
-mod readme;
+mod documents;
 mod run;
 mod streams;
 mod usage;
