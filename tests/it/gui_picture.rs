@@ -1,5 +1,6 @@
 //! The window with its views drawn: egui's own painter and the views' OpenGL, in a windowless context.
 #![allow(
+    clippy::undocumented_unsafe_blocks,
     unsafe_code,
     reason = "glow declares every OpenGL call unsafe; the context is current on this thread"
 )]
@@ -54,6 +55,7 @@ impl TestRenderer for GlowRenderer {
         cc.gl = Some(self.gl.clone());
     }
 
+    #[allow(clippy::iter_over_hash_type, reason = "textures do not depend on each other")]
     fn handle_delta(&mut self, delta: &mut egui::TexturesDelta) {
         for (id, images) in delta.set.drain() {
             for image in images {
