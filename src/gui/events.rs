@@ -22,7 +22,7 @@ const TITLES: [(&str, &str); 8] = [
     ("Kind", "What happened"),
     ("Bodies", "Who took part; events with one number at the left were resolved together"),
     (
-        "Normal speed → after [m/s]",
+        "Normal speed before → after [m/s]",
         "Speed along the normal, of the second body relative to the first: negative when closing",
     ),
     ("Impulse [N·s]", "Momentum handed over along the normal"),
@@ -54,7 +54,7 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>) {
         .column(Column::initial(52.0).resizable(true))
         .column(Column::initial(84.0).resizable(true))
         .column(Column::initial(150.0).resizable(true).clip(true))
-        .column(Column::initial(170.0).resizable(true))
+        .column(Column::initial(204.0).resizable(true))
         .column(Column::initial(96.0).resizable(true))
         .column(Column::remainder().clip(true));
     table

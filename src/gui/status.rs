@@ -35,7 +35,22 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>, pace: &Pace) {
         item(ui, "overlap", &overlap, 48.0, "Deepest overlap of any two bodies now, by looking at them all");
         item(ui, "step", &numbers::duration(frame.step_wall_s), 58.0, "Computing time of the last Δt");
         item(ui, "frame", &numbers::duration(pace.frame_s), 58.0, "Time the window took to draw itself last");
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| version(ui, context));
     });
+}
+
+/// The format that saving writes, and why.
+fn version(ui: &mut Ui, context: &AppContext<'_>) {
+    if context.shown.is_none() || ui.available_width() < 90.0 {
+        return;
+    }
+    let reasons = context.session.document().reasons_for_1_1();
+    let (text, help) = if reasons.is_empty() {
+        ("Version 1.0", "The file uses nothing that readers of PolyPhysicsXml 1.0 do not know".to_owned())
+    } else {
+        ("Version 1.1", format!("The file is PolyPhysicsXml 1.1 because of {}", reasons.join(", ")))
+    };
+    ui.label(RichText::new(text).small().color(tones(ui).weak)).on_hover_text(help);
 }
 
 fn residuals(ui: &mut Ui, frame: &Frame) {

@@ -62,7 +62,7 @@ const GESTURES: [(&str, &str); 11] = [
 pub fn show(ctx: &Context, page: HelpPage) -> bool {
     let mut closed = false;
     let modal = Modal::new(Id::unique("help")).show(ctx, |ui| {
-        ui.set_width(660.0);
+        ui.set_width(760.0);
         let height = (ctx.content_rect().height() - 180.0).clamp(200.0, 620.0);
         ui.heading(match page {
             HelpPage::Window => "The window",
@@ -90,7 +90,7 @@ fn window(ui: &mut Ui) {
         ui.add_space(6.0);
     }
     ui.label(RichText::new("Overlays").strong());
-    Grid::new("overlay help").num_columns(2).spacing([16.0, 3.0]).show(ui, |ui| {
+    Grid::new("overlay help").num_columns(2).min_col_width(110.0).spacing([12.0, 3.0]).show(ui, |ui| {
         for overlay in OVERLAYS {
             ui.label(overlay.label);
             ui.label(RichText::new(overlay.help).weak());
@@ -102,19 +102,22 @@ fn window(ui: &mut Ui) {
 fn keys(ui: &mut Ui) {
     for menu in Menu::ALL {
         ui.label(RichText::new(menu.label()).strong());
-        Grid::new(("keys", menu.label())).num_columns(3).spacing([16.0, 2.0]).show(ui, |ui| {
-            for row in COMMANDS.iter().filter(|row| row.menu == menu && !row.shortcuts.is_empty()) {
-                let keys: Vec<String> = row.shortcuts.iter().map(ToString::to_string).collect();
-                ui.label(mono(keys.join("  ")));
-                ui.label(row.label);
-                ui.label(RichText::new(row.help).weak());
-                ui.end_row();
-            }
-        });
+        Grid::new(("keys", menu.label())).num_columns(3).min_col_width(150.0).spacing([12.0, 2.0]).show(
+            ui,
+            |ui| {
+                for row in COMMANDS.iter().filter(|row| row.menu == menu && !row.shortcuts.is_empty()) {
+                    let keys: Vec<String> = row.shortcuts.iter().map(ToString::to_string).collect();
+                    ui.label(mono(keys.join("  ")));
+                    ui.label(row.label);
+                    ui.label(RichText::new(row.help).weak());
+                    ui.end_row();
+                }
+            },
+        );
         ui.add_space(6.0);
     }
     ui.label(RichText::new("Mouse, in the views").strong());
-    Grid::new("gestures").num_columns(2).spacing([16.0, 2.0]).show(ui, |ui| {
+    Grid::new("gestures").num_columns(2).min_col_width(150.0).spacing([12.0, 2.0]).show(ui, |ui| {
         for (gesture, effect) in GESTURES {
             ui.label(gesture);
             ui.label(RichText::new(effect).weak());

@@ -5,6 +5,7 @@ use egui::{Align, Button, Layout, Rect, RichText, Ui, UiBuilder, vec2};
 use super::pane::Pane;
 use super::{Scenery, look_name};
 use crate::editor::{self, Command};
+use crate::gui::colors::color32;
 use crate::gui::icons;
 use crate::gui::menu;
 use crate::view::{AxisView, OVERLAYS, OverlaySet, Projection};
@@ -21,11 +22,15 @@ impl Pane {
         let mut asked = Asked::default();
         let strip = Rect::from_min_size(rect.min + vec2(4.0, 4.0), vec2(rect.width() - 8.0, 22.0));
         let left = UiBuilder::new().max_rect(strip).layout(Layout::left_to_right(Align::Center));
-        ui.scope_builder(left, |ui| {
+        let back = ui.painter().add(egui::Shape::Noop);
+        let title = ui.scope_builder(left, |ui| {
             ui.spacing_mut().item_spacing.x = 2.0;
             self.title(ui, &mut asked);
             self.overlay_button(ui, scenery, &mut asked);
         });
+        // legible over whatever the view shows
+        let color = color32(scenery.context.palette().label_back);
+        ui.painter().set(back, egui::Shape::rect_filled(title.response.rect, 3.0, color));
         let right = UiBuilder::new().max_rect(strip).layout(Layout::right_to_left(Align::Center));
         ui.scope_builder(right, |ui| {
             let name = format!("Maximize {} view", look_name(&self.camera));
