@@ -19,9 +19,13 @@ mkdir -p screenshots/scenes
 
 # window NAME SCENE COMMANDS: the pointer of the display in memory rests below the window, so nothing is hovered.
 window() {
-  xvfb-run -a -s '-screen 0 1600x2200x24' "$polyscene" "scenes/$2.xml" --do "$3" \
+  xvfb-run -a -s '-screen 0 1600x2200x24' "$polyscene" ${2:+"scenes/$2.xml"} --do "$3" \
     --window-size 1600x1000 --screenshot "screenshots/$1.png"
 }
+window start '' ''
+window problems invalid/several-problems 'tab:problems'
+window light cradle 'switch_colors,dt:1/2,step_forward*2,next_event,event:0'
+window palette thesis-appendix-2 'palette'
 window editor thesis-appendix-2 'dt:1,step_forward*5,next_event*3,select:5853'
 window tiles gas 'dt:1/10,step_forward*20,view_perspective,overlay:tiles,maximize_view'
 

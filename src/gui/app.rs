@@ -126,6 +126,10 @@ impl App {
 
     /// What happened since the last turn: frames, keys, dropped files, a wish to close.
     fn begin(&mut self, ctx: &Context) {
+        // whatever was dragged or picked, it is over when no button is held
+        if self.session.open_gesture().is_some() && !ctx.input(|input| input.pointer.any_down()) {
+            self.session.perform(Action::EndGesture);
+        }
         self.session.poll(Instant::now());
         self.look_at_scene();
         self.views.look_at(self.session.frame());
@@ -350,7 +354,17 @@ fn lists(ui: &mut Ui, context: &AppContext<'_>, problems: &mut Problems, tab: &m
             let count = if counts.is_empty() { String::new() } else { format!(" ({})", counts.join(", ")) };
             let count = format!("Problems{count}");
             ui.selectable_value(tab, Tab::Problems, count);
-            ui.take_available_width();
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                if *tab == Tab::Events && events > 0 {
+                    let copy = ui
+                        .small_button("Copy")
+                        .on_hover_text("All rows as text with tabs, for a spreadsheet");
+                    if copy.clicked() {
+                        ui.ctx().copy_text(super::events::as_text(context.session.frame()));
+                    }
+                }
+                ui.take_available_width();
+            });
         });
     });
     egui::Frame::new().inner_margin(egui::Margin::symmetric(6, 2)).show(ui, |ui| {

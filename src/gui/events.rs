@@ -80,12 +80,6 @@ fn show_row(row: &mut TableRow<'_, '_>, context: &AppContext<'_>, frame: &Frame,
         cell(row, text, if column == 3 { event.event.kind.meaning() } else { "" });
     }
     let response = row.response();
-    response.context_menu(|ui| {
-        if ui.button("Copy all rows").on_hover_text("As text with tabs, for a spreadsheet").clicked() {
-            ui.ctx().copy_text(as_text(frame));
-            ui.close();
-        }
-    });
     if response.clicked() {
         let keys = [Some(event.a_key), event.b_key].into_iter().flatten().collect();
         context.outbox.act(Action::Select(keys));

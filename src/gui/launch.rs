@@ -272,14 +272,15 @@ impl App {
         }
         match bench.resting {
             None => {
-                bench.resting = Some((now, 0));
-                ctx.request_repaint_after(REST);
+                // the turning still echoes for a frame
+                bench.resting = Some((now + PAUSE, 0));
+                ctx.request_repaint_after(PAUSE + REST);
                 false
             }
             Some((since, repaints)) => {
-                let rested = now - since;
+                let rested = now.saturating_duration_since(since);
                 // a timer may be a little early: that repaint is its own
-                if rested < REST.mul_f64(0.95) {
+                if !rested.is_zero() && rested < REST.mul_f64(0.95) {
                     bench.resting = Some((since, repaints + 1));
                 }
                 ctx.request_repaint_after(REST.saturating_sub(rested));

@@ -20,6 +20,15 @@ const TRANSPORT: [Command; 7] = [
     Command::StepForward,
 ];
 
+const ADDITIONS: [Command; 6] = [
+    Command::AddSphereDynamic,
+    Command::AddSphereStatic,
+    Command::AddPlane,
+    Command::AddGravityPlane,
+    Command::AddGravityPoint,
+    Command::AddDrag,
+];
+
 /// Speeds offered by name; any other is reached with + and -.
 const SPEEDS: [(f64, &str); 9] = [
     (1.0 / 64.0, "1/64 ×"),
@@ -56,11 +65,7 @@ impl Transport {
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 view_buttons(ui, context, layout);
                 ui.separator();
-                for command in [Command::AddGravityPoint, Command::AddGravityPlane, Command::AddPlane] {
-                    command_button(ui, context, command);
-                }
-                command_button(ui, context, Command::AddSphereStatic);
-                command_button(ui, context, Command::AddSphereDynamic);
+                ADDITIONS.iter().rev().for_each(|command| command_button(ui, context, *command));
                 ui.separator();
                 command_button(ui, context, Command::Redo);
                 command_button(ui, context, Command::Undo);

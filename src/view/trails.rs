@@ -1,6 +1,6 @@
 //! Where the dynamic bodies have been lately.
 
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use glam::DVec3;
 
@@ -36,7 +36,8 @@ impl Trails {
         }
         self.time = frame.time;
         self.revision += 1;
-        self.trails.retain(|key, _| frame.bodies.iter().any(|body| body.key == *key));
+        let there: BTreeSet<NodeKey> = frame.bodies.iter().map(|body| body.key).collect();
+        self.trails.retain(|key, _| there.contains(key));
         for body in &frame.bodies {
             let points = &mut self.trails.entry(body.key).or_default().points;
             if points.len() == LENGTH {

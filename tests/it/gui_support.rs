@@ -58,6 +58,7 @@ impl Window {
         let mut harness = Harness::builder()
             .with_size(SIZE)
             .with_max_steps(12)
+            .with_accessibility_check(true)
             .build_eframe(move |cc| App::new(cc, parts(scene)));
         harness.run();
         Self { harness, folder }

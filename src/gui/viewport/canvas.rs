@@ -104,9 +104,13 @@ fn draw_label(painter: &egui::Painter, rect: Rect, label: &Label) {
 
 /// What the picture leaves out, under the view's title.
 fn draw_notes(painter: &egui::Painter, rect: Rect, list: &DrawList) {
-    let palette = painter.ctx().style_of(painter.ctx().theme()).visuals.warn_fg_color;
+    let visuals = &painter.ctx().style_of(painter.ctx().theme()).visuals;
     for (line, note) in list.notes.iter().enumerate() {
-        let at = rect.left_top() + vec2(10.0, 32.0 + 15.0 * line as f32);
-        painter.text(at, Align2::LEFT_TOP, note, FontId::proportional(11.5), palette);
+        let at = rect.left_top() + vec2(10.0, 32.0 + 17.0 * line as f32);
+        let font = FontId::proportional(11.5);
+        let galley = painter.layout_no_wrap(note.clone(), font, visuals.warn_fg_color);
+        let back = Rect::from_min_size(at, galley.size()).expand2(vec2(4.0, 1.0));
+        painter.rect_filled(back, 2.0, visuals.panel_fill.gamma_multiply(0.85));
+        painter.galley(at, galley, visuals.warn_fg_color);
     }
 }
