@@ -71,7 +71,7 @@ pub struct Frame {
     pub event_count: u64,
     pub energy: Option<Energy>,
     pub momentum: Option<Momentum>,
-    /// m.
+    /// Deepest overlap in any frame since the start, m.
     pub worst_overlap: f64,
     pub counters: Counters,
     pub plan: Arc<Plan>,

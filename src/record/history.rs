@@ -4,8 +4,8 @@
 use super::recorder::{Rows, Run, StepGrid};
 use crate::sim::{Event, SimEdit, Simulation, Snapshot};
 
-/// Memory that snapshots may take, bytes. Beyond it every second one is dropped, oldest intervals first
-/// becoming longer to simulate again.
+/// Memory that snapshots may take, bytes. Beyond it every second one is dropped, so that the intervals to
+/// simulate again grow longer.
 const SNAPSHOT_BUDGET: usize = 128 << 20;
 /// About what one dynamic body takes in a snapshot, bytes: its columns, predictions and tiles.
 const BODY_SIZE: usize = 1024;
@@ -56,8 +56,6 @@ pub(super) struct History {
     edits: Vec<RecordedEdit>,
     /// How many of them the simulation has behind it now.
     applied: usize,
-    /// Set while the past is simulated again: nothing is recorded twice.
-    replaying: bool,
 }
 
 impl History {
@@ -70,7 +68,6 @@ impl History {
             first_event: 1,
             edits: Vec::new(),
             applied: 0,
-            replaying: false,
         }
     }
 
@@ -90,9 +87,8 @@ impl History {
 
     pub(super) fn note_tick(&mut self, simulation: &Simulation, grid: StepGrid, event: u64) {
         let at = Point { event, time: simulation.time() };
-        if self.replaying || self.ticks.last().is_some_and(|last| last.at.time >= at.time) {
-            return;
-        }
+        // After going back, another Δt makes other ticks.
+        self.ticks.truncate(self.ticks.partition_point(|tick| tick.at.time < at.time));
         self.ticks.push(Tick { at, grid });
         if self.ticks.len() > LONGEST_PAST {
             self.ticks.drain(..LONGEST_PAST / 4);
@@ -150,6 +146,9 @@ impl Run {
         let tick = self.history.ticks[index];
         let before = index.checked_sub(1).map(|index| self.history.ticks[index]);
         self.replay(before.unwrap_or(tick), |run| {
+            if let Some(before) = before {
+                run.grid = tick.grid.reopened(before.at.time, tick.at.time);
+            }
             run.run_to(tick.at);
             run.grid = tick.grid;
         });
@@ -169,10 +168,12 @@ impl Run {
             return;
         };
         let (tick, after) = (history.ticks[index], history.ticks.get(index + 1).copied());
-        let open_end = after.map(|after| after.at.time).or(self.grid.open.map(|open| open.1));
+        let around = match after {
+            Some(after) => after.grid.reopened(tick.at.time, after.at.time),
+            None => self.grid,
+        };
         self.replay(tick, |run| {
-            run.grid = tick.grid;
-            run.grid.open = open_end.map(|end| (tick.at.time, end));
+            run.grid = around;
             run.run_to(Point { event: target, time });
         });
     }
@@ -187,11 +188,9 @@ impl Run {
         self.grid = key.grid;
         self.last_event = key.at.event;
         self.history.applied = key.edits;
-        self.history.replaying = true;
         self.run_to(from.at);
         self.rows = Rows::default();
         then(self);
-        self.history.replaying = false;
         self.faulted = false;
         self.message = None;
     }

@@ -20,7 +20,7 @@ impl InlineRunner {
 
     fn settle(&mut self) {
         while self.recorder.work(u32::MAX) {}
-        self.frame = Arc::new(frame_of(&self.recorder, self.frame.revision + 1, Pace::default()));
+        self.frame = Arc::new(frame_of(&mut self.recorder, self.frame.revision + 1, Pace::default()));
     }
 }
 

@@ -17,7 +17,7 @@ pub(super) struct Pace {
     pub(super) real_speed: f64,
 }
 
-pub(super) fn frame_of(recorder: &Recorder, revision: u64, pace: Pace) -> Frame {
+pub(super) fn frame_of(recorder: &mut Recorder, revision: u64, pace: Pace) -> Frame {
     let base = Frame {
         revision,
         state: recorder.state(),
@@ -27,9 +27,12 @@ pub(super) fn frame_of(recorder: &Recorder, revision: u64, pace: Pace) -> Frame 
         real_speed: pace.real_speed,
         ..Frame::default()
     };
-    match &recorder.run {
+    match &mut recorder.run {
         None => base,
-        Some(run) => with_run(base, run),
+        Some(run) => {
+            run.look_for_overlap();
+            with_run(base, run)
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::history::History;
 use super::{EventRow, RunCommand, RunState};
 use crate::scene::{Diagnostic, Scene};
-use crate::sim::{Event, Fault, SimEdit, Simulation};
+use crate::sim::{Event, Progress, SimEdit, Simulation};
 
 /// Events of one Δt that are kept for the table; older ones are left out, and the frame says so.
 const MAX_ROWS: usize = 20_000;
@@ -30,7 +30,7 @@ pub(super) struct Run {
     pub(super) grid: StepGrid,
     pub(super) rows: Rows,
     pub(super) history: History,
-    /// Deepest overlap at any end of a Δt so far, m.
+    /// Deepest overlap at any time looked at so far, m.
     pub(super) worst_overlap: f64,
     /// Number of the last event reached.
     pub(super) last_event: u64,
@@ -95,6 +95,9 @@ enum Slice {
 /// by this much and then plays slower, with the same Δt.
 const MOST_DUE: f64 = 0.1;
 
+/// Predictions carried out between two looks at the budget: a Δt may hold millions that are no events.
+const PREDICTIONS: u32 = 64;
+
 /// Δt without an event after which "next event" stops looking, so that a scene in which nothing happens
 /// any more does not run for ever.
 const MOST_EMPTY_STEPS: u32 = 100_000;
@@ -113,6 +116,11 @@ impl StepGrid {
     pub(super) fn span(&self) -> Option<(f64, f64)> {
         let at = |ticks: u64| self.origin + ticks as f64 * self.dt;
         self.open.or_else(|| self.ticks.checked_sub(1).map(|before| (at(before), at(self.ticks))))
+    }
+
+    /// The grid as it stood before its last Δt was closed, with that one open from `start` to `end`.
+    pub(super) fn reopened(self, start: f64, end: f64) -> Self {
+        Self { ticks: self.ticks.saturating_sub(1), open: Some((start, end)), ..self }
     }
 
     /// Opens the next Δt at `now`; another Δt than before starts the grid anew there.
@@ -232,7 +240,9 @@ impl Recorder {
             self.waiting.clear();
             return false;
         };
-        run.message = None;
+        if !run.faulted {
+            run.message = None;
+        }
         let valid = |dt: f64| dt.is_finite() && dt > 0.0;
         match command {
             RunCommand::Step { dt, count } if valid(dt) && count > 0 => {
@@ -310,9 +320,13 @@ impl Run {
         *budget -= 1;
         self.apply_due_edits(end);
         self.simulation.begin(end);
-        match self.reach_next_event() {
-            Ok(true) => Slice::Event,
-            Ok(false) => {
+        match self.simulation.work(PREDICTIONS) {
+            Ok(Progress::Event(event)) => {
+                self.note(&event);
+                Slice::Event
+            }
+            Ok(Progress::Working) => Slice::Pause,
+            Ok(Progress::Done) => {
                 self.close_step();
                 Slice::Done
             }
@@ -332,19 +346,8 @@ impl Run {
         self.grid.open.unwrap_or_default()
     }
 
-    /// Whether there was an event; if not, now is the end of the Δt.
-    fn reach_next_event(&mut self) -> Result<bool, Fault> {
-        if let Some(event) = self.simulation.next_event()? {
-            self.note(&event);
-            return Ok(true);
-        }
-        self.simulation.finish(&mut |_, _| {})?;
-        Ok(false)
-    }
-
     fn close_step(&mut self) {
         self.grid.close();
-        self.worst_overlap = self.worst_overlap.max(self.simulation.worst_overlap());
         self.history.note_tick(&self.simulation, self.grid, self.last_event);
     }
 
@@ -357,6 +360,11 @@ impl Run {
             self.rows.truncated = true;
         }
         self.rows.list.push_back(Arc::new(row_of(&self.simulation, event, self.grid.index())));
+    }
+
+    /// Looks for overlaps now. It costs a look through the tiles, so it is done when a frame is made.
+    pub(super) fn look_for_overlap(&mut self) {
+        self.worst_overlap = self.worst_overlap.max(self.simulation.worst_overlap());
     }
 
     /// Changes the scene now, between events, and records it with the time it was stamped with.

@@ -144,7 +144,7 @@ impl Worker {
     fn publish(&mut self) {
         self.measure();
         self.revision += 1;
-        let frame = Arc::new(frame_of(&self.recorder, self.revision, self.clock.pace));
+        let frame = Arc::new(frame_of(&mut self.recorder, self.revision, self.clock.pace));
         *self.shared.lock().unwrap_or_else(PoisonError::into_inner) = frame;
         self.clock.last_frame = Instant::now();
         (self.on_frame)();

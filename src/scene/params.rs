@@ -83,11 +83,10 @@ pub const PARAMS: &[ParamInfo] = &[
         name: "ContactDuration",
         label: "Contact duration",
         unit: "s",
-        range: (0.0, 1.0),
+        range: (1e-9, 1.0),
         help: "Impacts of one body that follow each other within this time count as one cascade; see \
                Collapse count. Two moving bodies that press against each other part for half of it at a \
-               time instead of touching without end, and overlap by less than the contact distance. At 0 \
-               an inelastic collapse never ends.",
+               time instead of touching without end. Smaller follows a collapse further and takes longer.",
         get: |p| p.contact_duration,
         set: |p, v| p.contact_duration = v,
     },
@@ -106,9 +105,9 @@ pub const PARAMS: &[ParamInfo] = &[
         name: "ContactDistance",
         label: "Contact distance",
         unit: "m",
-        range: (0.0, 1e-3),
-        help: "Surfaces at most this far apart touch: decides which bodies rest at the start and which \
-               overlaps at the start are reported. Above rounding at map sizes up to 1e5 m.",
+        range: (1e-12, 1e-3),
+        help: "Overlaps at the start are reported above this, and moving bodies that press against each \
+               other overlap by less than this. Above rounding at map sizes up to 1e5 m.",
         get: |p| p.contact_distance,
         set: |p, v| p.contact_distance = v,
     },

@@ -130,7 +130,9 @@ pub(super) fn energy(model: &Model, state: &State) -> Energy {
             sum.add(dissipated(model, state, body, state.now));
         }
         sum.add(-account.edit_work.value());
-        relative(sum.value(), account.energy_at_start.abs().max(account.kinetic_at_start).max(kinetic))
+        let turned_over = account.impact_losses.value().abs().max(account.dissipated.value().abs());
+        let scale = account.energy_at_start.abs().max(account.kinetic_at_start).max(kinetic).max(turned_over);
+        relative(sum.value(), scale)
     });
     Energy { kinetic, potential, total, residual }
 }
@@ -146,7 +148,9 @@ pub(super) fn momentum(model: &Model, state: &State) -> Momentum {
     for body in present(model) {
         sum.add(-force_impulse(model, state, body, state.now));
     }
-    Momentum { value, residual: relative(sum.value().length(), scale.max(account.momentum_scale)) }
+    let turned_over = account.impulses.value().length().max(account.force_impulse.value().length());
+    let scale = scale.max(account.momentum_scale).max(turned_over);
+    Momentum { value, residual: relative(sum.value().length(), scale) }
 }
 
 /// Zero over zero is no drift.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::account::{book_segment, energies, momentum_value};
-use super::compile::{Compiled, compile_body};
+use super::compile::{Compiled, check_force, compile_body};
 use super::engine::{begin, record};
 use super::force::{Force, ForceEntry, Law};
 use super::model::Model;
@@ -28,10 +28,12 @@ pub(super) fn apply(model: &mut Model, state: &mut State, edit: &SimEdit) -> Res
             if model.forces.iter().any(|entry| entry.key == Some(force.key)) {
                 return Err(EditRefused(format!("force {} is there already", force.label)));
             }
+            check_force(force).map_err(|problem| EditRefused(problem.message))?;
             model.forces.push(ForceEntry { key: Some(force.key), law: Law::from_kind(&force.kind) });
             None
         }
         SimEdit::ChangeForce(force) => {
+            check_force(force).map_err(|problem| EditRefused(problem.message))?;
             let entry = model.forces.iter_mut().find(|entry| entry.key == Some(force.key));
             let entry =
                 entry.ok_or_else(|| EditRefused(format!("force {} is not in the run", force.label)))?;
@@ -82,7 +84,7 @@ struct Books {
 impl Books {
     fn read(model: &Model, state: &mut State) -> Self {
         let time = state.now;
-        for body in 0..state.segments.len() as u32 {
+        for body in super::account::present(model) {
             book_segment(model, state, body, time);
             cut(state, body, time);
         }
@@ -150,6 +152,12 @@ fn add_body(model: &mut Model, state: &mut State, body: &Body) -> Result<BodyRef
     match compile_body(body, order).map_err(|problem| EditRefused(problem.message))? {
         Compiled::Mover(mover, start) => {
             model.movers.push(mover);
+            if 2.0 * mover_radius(&model.movers) > MOST_TILES_ACROSS * model.grid.tile_size.min_element() {
+                return Err(EditRefused(format!(
+                    "body {} spans too many tiles for the grid of this run; reset to run it",
+                    body.label
+                )));
+            }
             let index = state.push_body(start);
             enter(model, state, index, state.now);
             Ok(BodyRef::Dynamic(index))
@@ -160,6 +168,13 @@ fn add_body(model: &mut Model, state: &mut State, body: &Body) -> Result<BodyRef
             Ok(BodyRef::Static(model.fixtures.len() as u32 - 1))
         }
     }
+}
+
+/// Tiles across a body added while it runs, at most: the grid was made for the bodies of the start.
+const MOST_TILES_ACROSS: f64 = 64.0;
+
+fn mover_radius(movers: &[super::model::MoverInfo]) -> f64 {
+    movers.last().map_or(0.0, |mover| mover.radius)
 }
 
 fn remove(model: &mut Model, state: &mut State, key: NodeKey) -> Result<Option<BodyRef>, EditRefused> {

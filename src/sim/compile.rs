@@ -8,7 +8,7 @@ use super::force::{ForceEntry, Law};
 use super::model::{Fixture, FixtureShape, Identity, Model, MoverInfo, Plate};
 use super::plan::plan_of;
 use super::tiles::{Grid, StaticTiles};
-use crate::scene::{Body, Diagnostic, ForceKind, Motion, Scene, Severity, Shape, rotation_matrix};
+use crate::scene::{Body, Diagnostic, Force, ForceKind, Motion, Scene, Severity, Shape, rotation_matrix};
 
 /// Start of one dynamic body.
 #[derive(Clone, Copy, Debug)]
@@ -148,39 +148,38 @@ fn check_numbers(body: &Body) -> Result<(), Diagnostic> {
 
 fn check_world(scene: &Scene) -> Vec<Diagnostic> {
     let mut problems = Vec::new();
-    let mut add = |key, message: String, hint: &str| {
+    let size = scene.map.size;
+    if !(size.is_finite() && size.min_element() > 0.0) || scene.map.tiles.contains(&0) {
         problems.push(Diagnostic {
             severity: Severity::Error,
             position: None,
             path: String::new(),
-            message,
-            hint: hint.into(),
-            key,
+            message: "the map's size or tile counts are out of range".into(),
+            hint: "give sizes above 0 m and counts above 0".into(),
+            key: None,
         });
-    };
-    let size = scene.map.size;
-    if !(size.is_finite() && size.min_element() > 0.0) || scene.map.tiles.contains(&0) {
-        add(
-            None,
-            "the map's size or tile counts are out of range".into(),
-            "give sizes above 0 m and counts above 0",
-        );
     }
-    for force in &scene.forces {
-        let numbers = match force.kind {
-            ForceKind::GravityPoint { position, intensity } => position.is_finite() && intensity.is_finite(),
-            ForceKind::GravityPlane { acceleration, .. } => acceleration.is_finite(),
-            ForceKind::Drag { density } => density.is_finite() && density >= 0.0,
-        };
-        if !numbers {
-            add(
-                Some(force.key),
-                format!("force {}: its numbers are out of range", force.label),
-                "give finite numbers",
-            );
-        }
-    }
+    problems.extend(scene.forces.iter().filter_map(|force| check_force(force).err()));
     problems
+}
+
+pub(super) fn check_force(force: &Force) -> Result<(), Diagnostic> {
+    let sound = match force.kind {
+        ForceKind::GravityPoint { position, intensity } => position.is_finite() && intensity.is_finite(),
+        ForceKind::GravityPlane { acceleration, .. } => acceleration.is_finite(),
+        ForceKind::Drag { density } => density.is_finite() && density >= 0.0,
+    };
+    if sound {
+        return Ok(());
+    }
+    Err(Diagnostic {
+        severity: Severity::Error,
+        position: None,
+        path: String::new(),
+        message: format!("force {}: its numbers are out of range", force.label),
+        hint: "give finite numbers, and a density of 0 or more".into(),
+        key: Some(force.key),
+    })
 }
 
 fn problem(body: &Body, what: &str, hint: &str) -> Diagnostic {

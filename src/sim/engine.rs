@@ -6,7 +6,7 @@ use super::impact;
 use super::lasting::{keep_contacts, prune_contacts};
 use super::model::Model;
 use super::motion::{SegmentError, begin_segment};
-use super::neighbours::{predict_all, predict_fixture, predict_pair, reregister};
+use super::neighbours::{predict_all, predict_core_passes, predict_fixture, predict_pair, reregister};
 use super::predict::{self, sphere_fixture_gap, sphere_sphere_gap};
 use super::queue::{Kind, Predicted};
 use super::state::State;
@@ -16,6 +16,7 @@ use super::{BodyRef, Event, EventKind, Fault};
 /// What it has to report is left in the outbox.
 pub(super) fn advance(model: &Model, state: &mut State) -> Result<bool, Fault> {
     let Some(next) = pop(state) else { return Ok(false) };
+    state.reached = next.time;
     match next.kind {
         Kind::SegmentEnd => go_on(model, state, next.a, next.time)?,
         Kind::LeaveTiles => reregister(model, state, next.a, next.time),
@@ -83,27 +84,36 @@ fn meet(model: &Model, state: &mut State, next: &Predicted) -> Result<(), Fault>
     let (a, b, time) = (next.a, next.b, next.time);
     let gap = sphere_sphere_gap(state.mover(model, a), state.mover(model, b), time);
     let reach = model.movers[a as usize].radius.max(model.movers[b as usize].radius);
-    if gap.rate >= 0.0 || !is_closed(&gap, reach) {
-        predict_pair(model, state, a, b, time, time);
-        return Ok(());
+    if gap.rate < 0.0 && is_closed(&gap, reach, time) {
+        return impact::of_pair(model, state, a, b, time, &gap);
     }
-    impact::of_pair(model, state, a, b, time, &gap)
+    predict_pair(model, state, a, b, later(time, &gap), time);
+    Ok(())
+}
+
+/// Where to go on looking after a prediction that was no contact: at a surface that is not being closed
+/// in on a little later, for the same time would only give the same answer.
+fn later(time: f64, gap: &predict::Gap) -> f64 {
+    const LATER: f64 = 1e-9;
+    if gap.is_closing() { time } else { time + LATER.max(4.0 * f64::EPSILON * time) }
 }
 
 /// A dynamic body is due to touch a static one.
 fn meet_fixture(model: &Model, state: &mut State, next: &Predicted) -> Result<(), Fault> {
     let (body, index, time) = (next.a, next.b, next.time);
     let gap = sphere_fixture_gap(state.mover(model, body), &model.fixtures[index as usize], time);
-    if !gap.is_closing() || !is_closed(&gap, model.movers[body as usize].radius) {
-        predict_fixture(model, state, body, index, time, time);
-        return Ok(());
+    if gap.is_closing() && is_closed(&gap, model.movers[body as usize].radius, time) {
+        return impact::on_fixture(model, state, body, index, time, &gap);
     }
-    impact::on_fixture(model, state, body, index, time, &gap)
+    predict_fixture(model, state, body, index, later(time, &gap), time);
+    Ok(())
 }
 
-/// Whether surfaces are as near as a found root leaves them: a search that gave up is farther off.
-fn is_closed(gap: &predict::Gap, radius: f64) -> bool {
-    gap.distance <= 1e3 * predict::touch_tolerance(gap.point, radius)
+/// Whether surfaces are as near as a found root leaves them: a search that gave up is farther off. A root
+/// is known to the rounding of the time, in which they come nearer by |ḋ| times that.
+fn is_closed(gap: &predict::Gap, radius: f64, time: f64) -> bool {
+    let rounding_of_time = 16.0 * f64::EPSILON * time * gap.rate.abs();
+    gap.distance <= 1e3 * predict::touch_tolerance(gap.point, radius) + rounding_of_time
 }
 
 /// The body is turned back on its line at the core of a point attractor, the limit of ever thinner
@@ -112,6 +122,10 @@ fn pass_core(model: &Model, state: &mut State, next: &Predicted) -> Result<(), F
     let (body, time) = (next.a, next.time);
     let (x, v) = (state.position(body, time), state.velocity(body, time));
     let super::force::Law::Point { center, .. } = model.forces[next.b as usize].law else { return Ok(()) };
+    if (center - x).length() > 2.0 * model.params.core_radius {
+        predict_core_passes(model, state, body, time);
+        return Ok(());
+    }
     let inward = (center - x).normalize_or_zero();
     let speed = v.dot(inward);
     if speed <= 0.0 {
@@ -145,6 +159,9 @@ fn settled(model: &Model, state: &mut State, next: &Predicted) {
     let Some(contact) = contacts.iter_mut().find(|contact| contact.fixture == next.b) else { return };
     if contact.settles_at.take().is_some() {
         record_contact(model, state, next.time, EventKind::Rest, next.a, next.b);
+        if state.velocity(next.a, next.time) != DVec3::ZERO {
+            record_contact(model, state, next.time, EventKind::Slide, next.a, next.b);
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::account::subject;
-use super::contact::{Contact, Surface, into_cone, pressure, pressure_rounding};
+use super::contact::{Contact, Surface, constrain, into_cone, pressure, pressure_rounding};
 use super::engine::record_contact;
 use super::model::{FixtureShape, Model};
 use super::motion::applied_force;
@@ -115,9 +115,12 @@ pub(super) fn settle(model: &Model, state: &State, body: u32, fixture: u32, hit:
     let mut at_hit = subject(model, state, body, hit.time);
     at_hit.velocity = hit.velocity;
     let touch = contact.touch(model, mover.radius, hit.position, hit.velocity);
+    // What drives it against this surface may be another one that it slides along.
     let free = applied_force(model, &at_hit) / mover.mass;
-    let pressing = pressure(&touch, free);
-    if pressing <= pressure_rounding(&touch, free) {
+    let contacts = &state.contacts[body as usize];
+    let driven = constrain(model, contacts, mover.radius, hit.position, hit.velocity, free);
+    let pressing = pressure(&touch, driven);
+    if pressing <= pressure_rounding(&touch, driven) {
         return None;
     }
     let speed = hit.restitution * hit.closing;

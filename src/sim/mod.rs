@@ -39,4 +39,4 @@ pub use edit::{EditRefused, SimEdit};
 pub use force::{Force, Subject};
 pub use ledger::{BodyRef, Event, EventKind};
 pub use report::{BodyState, ContactState, Counters, Energy, Momentum, Plan, Tiling};
-pub use simulation::{CompileError, Fault, Simulation, Snapshot};
+pub use simulation::{CompileError, Fault, Progress, Simulation, Snapshot};

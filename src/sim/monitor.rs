@@ -108,9 +108,10 @@ pub(super) fn tiling(model: &Model, state: &State, limit: usize) -> Tiling {
     let grid = &model.grid;
     let mut keys = state.moving.occupied();
     let with_moving = keys.len();
-    let mut statics = model.static_tiles.occupied();
-    statics.retain(|key| keys[..with_moving].binary_search(key).is_err());
-    keys.extend(statics);
+    let fixed = model.static_tiles.occupied().iter().copied();
+    let only_fixed: Vec<u64> =
+        fixed.filter(|key| keys[..with_moving].binary_search(key).is_err()).take(limit + 1).collect();
+    keys.extend(only_fixed);
     let truncated = keys.len() > limit;
     keys.truncate(limit);
     keys.sort_unstable();

@@ -109,7 +109,7 @@ pub(super) fn first_beyond(
     }
 }
 
-fn predict_core_passes(model: &Model, state: &mut State, body: u32, time: f64) {
+pub(super) fn predict_core_passes(model: &Model, state: &mut State, body: u32, time: f64) {
     for (index, force) in (0u32..).zip(&model.forces) {
         let super::force::Law::Point { center, intensity } = force.law else { continue };
         if intensity <= 0.0 {

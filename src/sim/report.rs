@@ -43,7 +43,8 @@ pub struct Energy {
     pub potential: Option<f64>,
     /// `None` when a force has no potential.
     pub total: Option<f64>,
-    /// (E − E₀ + impact losses + dissipated work − work of edits) / max(|E₀|, max kinetic).
+    /// (E − E₀ + impact losses + dissipated work − work of edits) over the largest of |E₀|, the kinetic
+    /// energy at the start and now, and the energy lost.
     pub residual: Option<f64>,
 }
 
@@ -51,7 +52,8 @@ pub struct Energy {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Momentum {
     pub value: DVec3,
-    /// |p − p₀ − ∫F dt − impulses of statics| / max(Σ m|v|) so far.
+    /// |p − p₀ − ∫F dt − impulses of statics| over the largest of Σ m|v| at the start and now, and the
+    /// impulses given.
     pub residual: f64,
 }
 

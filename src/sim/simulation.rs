@@ -27,7 +27,18 @@ pub struct CompileError {
     pub problems: Vec<Diagnostic>,
 }
 
-/// A number went wrong while running. The simulation stays at the last good event.
+/// How far [`Simulation::work`] has come.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Progress {
+    /// An event was reached.
+    Event(Event),
+    /// There is more to do before the next event or the end.
+    Working,
+    /// The time asked for is reached.
+    Done,
+}
+
+/// A number went wrong while running. The simulation stops there; only an edit or a reset helps.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("at t = {time} s: {message}")]
 pub struct Fault {
@@ -84,9 +95,21 @@ impl Simulation {
     /// After a fault it goes no further and gives the same fault again.
     pub fn next_event(&mut self) -> Result<Option<Event>, Fault> {
         loop {
+            match self.work(u32::MAX)? {
+                Progress::Event(event) => return Ok(Some(event)),
+                Progress::Done => return Ok(None),
+                Progress::Working => {}
+            }
+        }
+    }
+
+    /// As [`Self::next_event`], but carries out at most `limit` predictions. Most of them (segments that
+    /// end, tiles that are left) are no events, so a caller that has to answer someone needs this.
+    pub fn work(&mut self, limit: u32) -> Result<Progress, Fault> {
+        for _ in 0..limit {
             if let Some(event) = self.state.outbox.pop_front() {
                 self.state.now = self.state.now.max(event.time);
-                return Ok(Some(event));
+                return Ok(Progress::Event(event));
             }
             if let Some(fault) = &self.fault {
                 return Err(fault.clone());
@@ -95,11 +118,19 @@ impl Simulation {
                 Ok(true) => {}
                 Ok(false) => {
                     self.state.now = self.state.until;
-                    return Ok(None);
+                    return Ok(Progress::Done);
                 }
-                Err(fault) => self.fault = Some(fault),
+                Err(fault) => {
+                    self.state.now = self.state.now.max(self.state.reached);
+                    self.fault = Some(fault);
+                }
             }
         }
+        // Nothing lies between here and the last prediction, so it can be looked at.
+        if self.state.outbox.is_empty() {
+            self.state.now = self.state.now.max(self.state.reached);
+        }
+        Ok(Progress::Working)
     }
 
     /// Goes through the events that are left to the time given to [`Self::begin`], which becomes now.

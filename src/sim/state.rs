@@ -19,6 +19,8 @@ use super::{Counters, Event};
 pub(super) struct State {
     /// Model time of what can be read, s.
     pub now: f64,
+    /// Time of the last prediction carried out, s; segments may begin there, after `now`.
+    pub reached: f64,
     /// Time up to which events are asked for, s.
     pub until: f64,
     pub segments: Vec<Segment>,
@@ -71,6 +73,7 @@ impl State {
     pub fn new(starts: &[Start]) -> Self {
         let mut state = Self {
             now: 0.0,
+            reached: 0.0,
             until: 0.0,
             segments: Vec::with_capacity(starts.len()),
             stamps: Vec::with_capacity(starts.len()),

@@ -11,6 +11,8 @@ use crate::sim::model::{Fixture, FixtureShape, Plate};
 pub(in crate::sim) struct StaticTiles {
     spans: FxHashMap<u64, (u32, u32)>,
     items: Vec<u32>,
+    /// Keys of the occupied tiles, sorted.
+    occupied: Vec<u64>,
     /// Static bodies that fill too many tiles to be listed in each.
     large: Vec<u32>,
 }
@@ -40,7 +42,9 @@ impl StaticTiles {
             }
         }
         entries.sort_unstable();
-        Self { spans: spans(&entries), items: entries.iter().map(|entry| entry.1).collect(), large }
+        let mut occupied: Vec<u64> = entries.iter().map(|entry| entry.0).collect();
+        occupied.dedup();
+        Self { occupied, spans: spans(&entries), items: entries.iter().map(|entry| entry.1).collect(), large }
     }
 
     pub fn bodies(&self, key: u64) -> &[u32] {
@@ -52,10 +56,8 @@ impl StaticTiles {
     }
 
     /// Keys of the occupied tiles, sorted.
-    pub fn occupied(&self) -> Vec<u64> {
-        let mut keys: Vec<u64> = self.spans.keys().copied().collect();
-        keys.sort_unstable();
-        keys
+    pub fn occupied(&self) -> &[u64] {
+        &self.occupied
     }
 }
 
@@ -171,7 +173,7 @@ mod tests {
                     assert_eq!(tiles.bodies(grid.key(low)), [0], "{point} of {plate:?}");
                 }
                 for key in tiles.occupied() {
-                    assert!(samples_hit(&grid, key, &plate), "tile {key} lists {plate:?} in vain");
+                    assert!(samples_hit(&grid, *key, &plate), "tile {key} lists {plate:?} in vain");
                 }
             }
         }
