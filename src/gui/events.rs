@@ -13,6 +13,7 @@ use super::theme::ROW_HEIGHT;
 use super::widgets::{cell, mono};
 use crate::editor::Action;
 use crate::record::{EventRow, Frame};
+use crate::scene::NodeKey;
 use crate::sim::EventKind;
 
 const TITLES: [(&str, &str); 8] = [
@@ -75,7 +76,7 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>) {
 fn show_row(row: &mut TableRow<'_, '_>, context: &AppContext<'_>, frame: &Frame, event: &Arc<EventRow>) {
     let chosen = context.session.shown_event().is_some_and(|shown| shown.event.seq == event.event.seq);
     row.set_selected(chosen);
-    for (column, text) in cells(frame, event).into_iter().enumerate() {
+    for (column, text) in cells(context, frame, event).into_iter().enumerate() {
         let text = if matches!(column, 3 | 4) { RichText::new(text) } else { mono(text) };
         cell(row, text, if column == 3 { event.event.kind.meaning() } else { "" });
     }
@@ -91,7 +92,7 @@ fn show_row(row: &mut TableRow<'_, '_>, context: &AppContext<'_>, frame: &Frame,
     }
 }
 
-fn cells(frame: &Frame, row: &EventRow) -> [String; 8] {
+fn cells(context: &AppContext<'_>, frame: &Frame, row: &EventRow) -> [String; 8] {
     let event = &row.event;
     let touching = matches!(event.kind, EventKind::Impact | EventKind::Collapse);
     let if_touching = |text: String| if touching { text } else { String::new() };
@@ -101,15 +102,21 @@ fn cells(frame: &Frame, row: &EventRow) -> [String; 8] {
         format!("{:.9}", event.time),
         share(frame, event.time),
         event.kind.name().replace('_', " "),
-        bodies(row),
+        bodies(context, row),
         if_touching(format!("{} → {}", significant(event.vn_before, 6), significant(event.vn_after, 6))),
         if_touching(significant(event.impulse, 6)),
         if event.point.is_finite() { format!("{x}, {y}, {z}") } else { String::new() },
     ]
 }
 
-fn bodies(row: &EventRow) -> String {
-    if row.b_label.is_empty() { row.a_label.clone() } else { format!("{} – {}", row.a_label, row.b_label) }
+/// Both by name; by label where a body is gone.
+pub fn bodies(context: &AppContext<'_>, row: &EventRow) -> String {
+    let name = |key: Option<NodeKey>, label: &str| {
+        let name = key.and_then(|key| context.shown?.name(key));
+        name.unwrap_or(label).to_owned()
+    };
+    let a = name(Some(row.a_key), &row.a_label);
+    if row.b_label.is_empty() { a } else { format!("{a} – {}", name(row.b_key, &row.b_label)) }
 }
 
 /// Where in the Δt.

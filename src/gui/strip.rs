@@ -46,7 +46,7 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>) {
     if response.double_clicked() {
         context.outbox.send(Message::FramePlace(event.event.point));
     }
-    response.on_hover_text_at_pointer(describe(&event));
+    response.on_hover_text_at_pointer(describe(context, &event));
 }
 
 /// Writes what the Δt is at both ends, and returns the room between.
@@ -135,15 +135,10 @@ impl Axis {
     }
 }
 
-fn describe(row: &EventRow) -> String {
+fn describe(context: &AppContext<'_>, row: &EventRow) -> String {
     let event = &row.event;
     let kind = event.kind.name().replace('_', " ");
-    let with = if row.b_label.is_empty() { String::new() } else { format!(" – {}", row.b_label) };
-    format!(
-        "{} {kind}: {}{with}\nt = {:.9} s, {} N·s",
-        event.seq,
-        row.a_label,
-        event.time,
-        significant(event.impulse, 6)
-    )
+    let bodies = super::events::bodies(context, row);
+    let impulse = significant(event.impulse, 6);
+    format!("{} {kind}: {bodies}\nt = {:.9} s, {impulse} N·s", event.seq, event.time)
 }

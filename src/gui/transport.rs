@@ -4,11 +4,13 @@ use egui::{RichText, TextEdit, Ui};
 
 use super::colors::tones;
 use super::context::AppContext;
+use super::inspector::number::{Number, number};
 use super::viewport::Layout;
 use super::widgets::{command_button, icon_button, severity_icon};
 use super::{icons, numbers};
-use crate::editor::{self, Action, Command};
+use crate::editor::{self, Action, Command, Shared};
 use crate::record::RunState;
+use crate::scene::Edit;
 
 const TRANSPORT: [Command; 7] = [
     Command::Reset,
@@ -60,6 +62,8 @@ impl Transport {
             self.dt_field(ui, context);
             ui.add_space(6.0);
             speed_menu(ui, context);
+            ui.add_space(6.0);
+            time_speed(ui, context);
             ui.add_space(8.0);
             state(ui, context);
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
@@ -117,12 +121,27 @@ fn speed_menu(ui: &mut Ui, context: &AppContext<'_>) {
         })
         .response
         .labelled_by(label.id);
-    let time_speed = context.scene().map_or(1.0, |scene| scene.time_speed);
-    response.on_hover_text(format!(
-        "Model seconds per second of watching, times the scene's own time speed ({}). Keys + and -.\n\
+    response.on_hover_text(
+        "How fast playing is, times the scene's own time speed. Keys + and -.\n\
          Playing takes no larger Δt when the machine can't follow; it becomes slower.",
-        numbers::significant(time_speed, 6)
-    ));
+    );
+}
+
+/// The scene's own, which is saved with it.
+fn time_speed(ui: &mut Ui, context: &AppContext<'_>) {
+    let Some(scene) = context.scene() else { return };
+    let value = Shared::Same(scene.time_speed);
+    let help = "Model seconds per second of watching, as the file says. Never scales Δt.";
+    ui.label("Time speed").on_hover_text(help);
+    let spec = Number {
+        name: "Time speed of the scene",
+        value,
+        range: (1e-9, f64::INFINITY),
+        speed: 0.01 * scene.time_speed,
+        width: 48.0,
+        help,
+    };
+    number(ui, context.outbox, &spec, Edit::TimeSpeed);
 }
 
 /// What the simulation is doing, when that is not simply waiting; and what waits for a reset.

@@ -1,9 +1,10 @@
 //! The window with its views drawn: egui's own painter and the views' OpenGL, in a windowless context.
+#![allow(unsafe_code, reason = "glow declares every OpenGL call unsafe")]
 #![allow(
     clippy::undocumented_unsafe_blocks,
-    unsafe_code,
-    reason = "glow declares every OpenGL call unsafe; the context is current on this thread"
+    reason = "one reason for all: the context is current on this thread, objects and buffers are its own"
 )]
+#![allow(clippy::iter_over_hash_type, reason = "the order in which textures are set makes no difference")]
 
 use std::collections::BTreeSet;
 use std::sync::Arc;

@@ -1,9 +1,8 @@
 //! Bodies: what they start with, and what they do now.
 
 use egui::{Grid, RichText, Ui};
-use glam::DVec3;
 
-use super::number::{Number, number};
+use super::number::{Number, WIDTH, number};
 use super::section;
 use super::text::TextFields;
 use crate::editor::{Action, BODY_FIELDS, Field, Shared, shared};
@@ -131,7 +130,8 @@ fn rows(
         row_label(ui, if axis == 0 { field.label } else { "" }, axis_name);
         let name = field.accessible_name(axis);
         let speed = speed(field.unit, value, shown.scene.map.size.max_element());
-        let spec = Number { name: &name, value, range: field.range, speed, help: help(field.label) };
+        let spec =
+            Number { name: &name, value, range: field.range, speed, width: WIDTH, help: help(field.label) };
         number(ui, context.outbox, &spec, |value| field.edit(&shown.scene, keys, axis, value));
         match (field.now.zip(now), field.unit) {
             (Some((get, frame)), _) => {
@@ -193,26 +193,34 @@ fn help(label: &str) -> &'static str {
 
 /// What only a simulation knows.
 fn motion(ui: &mut Ui, now: &BodyFrame) {
+    let vectors = [
+        ("Acceleration", now.acceleration, "m/s²", "Of the motion, so contact forces are included"),
+        ("Total force", now.force, "N", "Sum of the forces of the scene, without contact forces"),
+    ];
     section(ui, "Now");
-    Grid::new("body motion").num_columns(4).spacing([6.0, 3.0]).show(ui, |ui| {
-        let triple = |v: DVec3| v.to_array().map(|value| significant(value, 6)).join("  ");
-        let rows = [
-            ("Speed", significant(now.velocity.length(), 8), "m/s", ""),
-            (
-                "Acceleration",
-                triple(now.acceleration),
-                "m/s²",
-                "Of the motion, so contact forces are included",
-            ),
-            ("Total force", triple(now.force), "N", "Sum of the forces of the scene, without contact forces"),
-            ("Kinetic energy", significant(now.kinetic, 8), "J", "½ m v²"),
-            ("Contact", now.contact.name().to_owned(), "", "flight, rest, or slide along a surface"),
-        ];
-        for (label, value, unit, help) in rows {
-            ui.label(label).on_hover_text(help);
-            ui.label(mono(value));
-            ui.label(RichText::new(unit).color(tones(ui).weak));
-            ui.end_row();
+    Grid::new("body motion").num_columns(3).spacing([6.0, 3.0]).show(ui, |ui| {
+        row(ui, ["Speed", ""], significant(now.velocity.length(), 8), "m/s", "");
+        for (label, vector, unit, help) in vectors {
+            for (axis, value) in ["x", "y", "z"].into_iter().zip(vector.to_array()) {
+                let label = if axis == "x" { label } else { "" };
+                row(ui, [label, axis], significant(value, 8), unit, help);
+            }
         }
+        row(ui, ["Kinetic energy", ""], significant(now.kinetic, 8), "J", "½ m v²");
+        let help = "flight, rest, or slide along a surface";
+        row(ui, ["Contact", ""], now.contact.name().to_owned(), "", help);
     });
+}
+
+fn row(ui: &mut Ui, [label, axis]: [&str; 2], value: String, unit: &str, help: &str) {
+    ui.horizontal(|ui| {
+        ui.set_min_width(112.0);
+        ui.label(label).on_hover_text(help);
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            ui.label(RichText::new(axis).color(tones(ui).weak));
+        });
+    });
+    ui.label(mono(value));
+    ui.label(RichText::new(unit).color(tones(ui).weak));
+    ui.end_row();
 }

@@ -3,7 +3,7 @@
 use egui::{Grid, RichText, Ui};
 
 use super::bodies::{row_label, speed};
-use super::number::{Number, number};
+use super::number::{Number, WIDTH, number};
 use super::section;
 use super::text::TextFields;
 use crate::editor::{FORCE_FIELDS, Shared, shared};
@@ -32,6 +32,7 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>, shown: &Shown, keys: &[NodeKe
                     value,
                     range: field.range,
                     speed,
+                    width: WIDTH,
                     help: help(field.label, &forces),
                 };
                 number(ui, context.outbox, &spec, |value| field.edit(&shown.scene, keys, axis, value));

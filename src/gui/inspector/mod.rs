@@ -2,7 +2,7 @@
 
 mod bodies;
 mod forces;
-mod number;
+pub mod number;
 mod place;
 mod text;
 

@@ -23,6 +23,8 @@ pub struct Number<'a> {
     pub range: (f64, f64),
     /// Change per point of dragging.
     pub speed: f64,
+    /// Points; [`WIDTH`] in lists.
+    pub width: f32,
     pub help: &'a str,
 }
 
@@ -62,7 +64,7 @@ fn drag_value(ui: &mut Ui, number: &Number<'_>, value: f64, mixed: bool) -> (Res
         .clamp_existing_to_range(false)
         .update_while_editing(false)
         .clip_text(true)
-        .min_size(vec2(WIDTH, 20.0))
+        .min_size(vec2(number.width, 20.0))
         .custom_formatter(move |now, _| if now == value { shown.clone() } else { significant(now, DIGITS) })
         .custom_parser(move |text| if text.trim() == known { Some(value) } else { parse_number(text) });
     let response = ui.add(widget).accessible_name(number.name);

@@ -3,7 +3,7 @@
 use egui::{Grid, RichText, Ui};
 
 use super::bodies::{row_label, speed};
-use super::number::{Number, number};
+use super::number::{Number, WIDTH, number};
 use super::section;
 use crate::editor::{Action, Field, SCENE_FIELDS, shared};
 use crate::gui::colors::tones;
@@ -61,7 +61,14 @@ fn fields(
                 } else {
                     speed(field.unit, value, scene.map.size.max_element())
                 };
-                let spec = Number { name: &name, value, range: field.range, speed, help: help(field.label) };
+                let spec = Number {
+                    name: &name,
+                    value,
+                    range: field.range,
+                    speed,
+                    width: WIDTH,
+                    help: help(field.label),
+                };
                 number(ui, context.outbox, &spec, |value| {
                     field.change(scene, axis, value).unwrap_or(Edit::All(Vec::new()))
                 });
@@ -115,8 +122,14 @@ fn param_row(ui: &mut Ui, context: &AppContext<'_>, scene: &Scene, param: &Param
     let help = format!("{}\nDefault: {} {}", param.help, numbers::significant(default, 6), param.unit);
     ui.label(param.label).on_hover_text(&help);
     let speed = 0.01 * value.abs().max(0.1 * default.abs()).max(1e-12);
-    let spec =
-        Number { name: param.label, value: shared([Some(value)]), range: param.range, speed, help: &help };
+    let spec = Number {
+        name: param.label,
+        value: shared([Some(value)]),
+        range: param.range,
+        speed,
+        width: WIDTH,
+        help: &help,
+    };
     number(ui, context.outbox, &spec, |value| with(param, scene, value));
     ui.label(RichText::new(param.unit).color(tones(ui).weak));
     if value != default {
