@@ -74,6 +74,17 @@ impl Contact {
     }
 }
 
+/// The contacts of a body as they are at a position and velocity.
+pub(super) fn touches_at(
+    model: &Model,
+    contacts: &[Contact],
+    radius: f64,
+    position: DVec3,
+    velocity: DVec3,
+) -> Vec<Touch> {
+    contacts.iter().map(|contact| contact.touch(model, radius, position, velocity)).collect()
+}
+
 /// The acceleration that the contacts leave of a free acceleration.
 pub(super) fn constrain(
     model: &Model,
@@ -90,44 +101,78 @@ pub(super) fn constrain(
             // a·towards = |v⊥|²/ρ; less pressure than that and the body leaves, which is an event.
             free - (free.dot(touch.towards) - touch.centripetal) * touch.towards
         }
-        several => {
-            let normals: Vec<DVec3> = several
-                .iter()
-                .map(|contact| contact.touch(model, radius, position, velocity).towards)
-                .collect();
-            into_cone(free, &normals)
-        }
+        several => nearest_allowed(free, &touches_at(model, several, radius, position, velocity)),
     }
 }
 
-/// The vector nearest to `vector` among those that enter none of the surfaces: w·towards ≤ 0 for each.
+/// The acceleration nearest to `free` that enters none of the surfaces: a·towards ≤ centripetal for each
+/// (Gauss's principle of least constraint).
 ///
-/// The nearest point of a cone is the remainder of a projection onto at most three of the normals, with
-/// non-negative multipliers; few contacts allow to try them all.
-pub(super) fn into_cone(vector: DVec3, towards: &[DVec3]) -> DVec3 {
-    let tolerance = 1e-13 * vector.length();
-    let allowed = |w: DVec3| towards.iter().all(|n| w.dot(*n) <= tolerance);
-    if allowed(vector) {
-        return vector;
+/// The nearest point of a polyhedron is a projection onto at most three of its faces; few contacts allow
+/// to try them all.
+fn nearest_allowed(free: DVec3, touches: &[Touch]) -> DVec3 {
+    let largest = touches.iter().map(|touch| touch.centripetal).fold(free.length(), f64::max);
+    let tolerance = 1e-13 * largest;
+    let allowed =
+        |w: DVec3| touches.iter().all(|touch| w.dot(touch.towards) <= touch.centripetal + tolerance);
+    if allowed(free) {
+        return free;
     }
     let mut best: Option<DVec3> = None;
-    let mut offer = |w: DVec3| {
-        if allowed(w) && best.is_none_or(|b| (w - vector).length_squared() < (b - vector).length_squared()) {
+    let mut offer = |faces: &[Touch]| {
+        let w = onto_faces(free, faces);
+        if allowed(w) && best.is_none_or(|b| (w - free).length_squared() < (b - free).length_squared()) {
             best = Some(w);
         }
     };
-    for (i, a) in towards.iter().enumerate() {
-        if vector.dot(*a) > 0.0 {
-            offer(vector - vector.dot(*a) * *a);
-        }
-        for b in &towards[i + 1..] {
-            if let Some(along) = a.cross(*b).try_normalize() {
-                offer(vector.dot(along) * along);
+    for (i, a) in touches.iter().enumerate() {
+        offer(&[*a]);
+        for (j, b) in touches.iter().enumerate().skip(i + 1) {
+            offer(&[*a, *b]);
+            for c in &touches[j + 1..] {
+                offer(&[*a, *b, *c]);
             }
         }
     }
-    // Where no line is left, the cone is a point.
-    best.unwrap_or(DVec3::ZERO)
+    best.unwrap_or_else(|| onto_faces(free, touches))
+}
+
+/// The vector nearest to `vector` with w·towards = centripetal on every face, by Gram–Schmidt. A face
+/// that depends on those before it is passed over.
+fn onto_faces(vector: DVec3, faces: &[Touch]) -> DVec3 {
+    const DEPENDENT: f64 = 1e-6;
+    let mut basis: Vec<(DVec3, f64)> = Vec::with_capacity(3);
+    let mut w = vector;
+    for face in faces {
+        let (mut fresh, mut offset) = (face.towards, face.centripetal);
+        for (unit, at) in &basis {
+            let along = face.towards.dot(*unit);
+            fresh -= along * *unit;
+            offset -= along * at;
+        }
+        let length = fresh.length();
+        if length > DEPENDENT {
+            let (unit, at) = (fresh / length, offset / length);
+            w -= (w.dot(unit) - at) * unit;
+            basis.push((unit, at));
+        }
+    }
+    // What is left in a groove or a corner may be rounding alone, and would creep.
+    if w.length() <= 16.0 * f64::EPSILON * vector.length() { DVec3::ZERO } else { w }
+}
+
+/// What is left of a velocity that may neither enter nor leave any of the surfaces.
+pub(super) fn along_all(velocity: DVec3, towards: &[DVec3]) -> DVec3 {
+    let faces: Vec<Touch> =
+        towards.iter().map(|towards| Touch { towards: *towards, centripetal: 0.0 }).collect();
+    onto_faces(velocity, &faces)
+}
+
+/// The velocity nearest to `velocity` that enters none of the surfaces.
+pub(super) fn into_cone(velocity: DVec3, towards: &[DVec3]) -> DVec3 {
+    let faces: Vec<Touch> =
+        towards.iter().map(|towards| Touch { towards: *towards, centripetal: 0.0 }).collect();
+    nearest_allowed(velocity, &faces)
 }
 
 /// Acceleration that presses the body into the contact, m/s²; not above zero when nothing holds it there.
@@ -139,4 +184,11 @@ pub(super) fn pressure(touch: &Touch, free: DVec3) -> f64 {
 /// on the point of lifting off does not do both for ever.
 pub(super) fn pressure_rounding(touch: &Touch, free: DVec3) -> f64 {
     1e-12 * (free.length() + touch.centripetal)
+}
+
+/// Whether a body under a free acceleration stays in contact `index` of its contacts.
+pub(super) fn is_held(touches: &[Touch], index: usize, free: DVec3) -> bool {
+    let touch = &touches[index];
+    let driven = if touches.len() == 1 { free } else { nearest_allowed(free, touches) };
+    free != DVec3::ZERO && pressure(touch, driven) >= -pressure_rounding(touch, free)
 }

@@ -3,7 +3,9 @@
 use glam::DVec3;
 
 use super::account::subject;
-use super::contact::{Contact, Surface, constrain, into_cone, pressure, pressure_rounding};
+use super::contact::{
+    Contact, Surface, along_all, constrain, into_cone, is_held, pressure, pressure_rounding, touches_at,
+};
 use super::engine::record_contact;
 use super::model::{FixtureShape, Model};
 use super::motion::applied_force;
@@ -60,11 +62,12 @@ const PRESSURE_SAMPLES: u32 = 8;
 /// First time on a field segment at which nothing presses the body into the contact any more.
 fn lift_time(model: &Model, state: &State, body: u32, contact: &Contact) -> Option<f64> {
     let segment = &state.segments[body as usize];
+    let contacts = &state.contacts[body as usize];
+    let Some(index) = contacts.iter().position(|other| other.fixture == contact.fixture) else { return None };
     let pressed = |time: f64| {
         let subject = subject(model, state, body, time);
-        let touch = contact.touch(model, subject.radius, subject.position, subject.velocity);
-        let free = applied_force(model, &subject) / subject.mass;
-        pressure(&touch, free) >= -pressure_rounding(&touch, free)
+        let touches = touches_at(model, contacts, subject.radius, subject.position, subject.velocity);
+        is_held(&touches, index, applied_force(model, &subject) / subject.mass)
     };
     let mut low = segment.start;
     for sample in 1..=PRESSURE_SAMPLES {
@@ -151,20 +154,8 @@ fn level_velocity(velocity: DVec3, towards: DVec3, others: &[DVec3], rest_speed:
         let all: Vec<DVec3> = others.iter().copied().chain([towards]).collect();
         return into_cone(level, &all);
     }
-    // Gram–Schmidt: an orthonormal basis of the normals, taken out one by one.
-    let mut basis = vec![towards];
-    let mut left = level;
-    for other in others {
-        let mut fresh = *other;
-        for unit in &basis {
-            fresh -= fresh.dot(*unit) * *unit;
-        }
-        if fresh.length() > 1e-6 {
-            let unit = fresh.normalize();
-            left -= left.dot(unit) * unit;
-            basis.push(unit);
-        }
-    }
+    let all: Vec<DVec3> = [towards].into_iter().chain(others.iter().copied()).collect();
+    let left = along_all(level, &all);
     if left.length() <= VELOCITY_ROUNDING * velocity.length() { DVec3::ZERO } else { left }
 }
 
@@ -213,18 +204,10 @@ pub(super) fn prune_contacts(model: &Model, state: &mut State, body: u32, time: 
     (at.position, at.velocity) = (x, v);
     let free = applied_force(model, &at) / at.mass;
     let old = std::mem::take(&mut state.contacts[body as usize]);
-    let touches: Vec<DVec3> = old.iter().map(|contact| contact.touch(model, radius, x, v).towards).collect();
-    let constrained = into_cone(free, &touches);
-    let alone = old.len() == 1;
+    let touches = touches_at(model, &old, radius, x, v);
     let mut kept = Vec::new();
-    for (contact, towards) in old.into_iter().zip(touches) {
-        let pressed = if alone {
-            let touch = contact.touch(model, radius, x, v);
-            pressure(&touch, free) >= -pressure_rounding(&touch, free) && free != DVec3::ZERO
-        } else {
-            constrained.dot(towards) >= -VELOCITY_ROUNDING * free.length() && free != DVec3::ZERO
-        };
-        if pressed {
+    for (index, contact) in old.into_iter().enumerate() {
+        if is_held(&touches, index, free) {
             let fresh = Contact::new(contact.fixture, &model.fixtures[contact.fixture as usize], x);
             let surface = if contact.is_round() { fresh.surface } else { contact.surface };
             kept.push(Contact { surface, ..contact });

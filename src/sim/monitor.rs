@@ -14,6 +14,7 @@ pub(super) fn worst_overlap(model: &Model, state: &State, time: f64) -> f64 {
     let mut worst: f64 = 0.0;
     for_each_neighbour(model, state, |body, other| {
         worst = worst.max(-distance(model, state, body, other, time));
+        true
     });
     worst
 }
@@ -31,7 +32,13 @@ pub(super) fn start_warnings(model: &Model, state: &State) -> Vec<Diagnostic> {
                 "move them apart; the run goes on, but they can part only by moving away from each other",
             ));
         }
+        warnings.len() < MOST_WARNINGS
     });
+    if warnings.len() >= MOST_WARNINGS {
+        let more = "there may be more overlaps: only the first are listed".to_owned();
+        warnings
+            .push(Diagnostic { key: None, ..warning(&model.movers[0].identity, more, "mend these first") });
+    }
     let size = model.grid.tile_size * DVec3::from(model.grid.counts.map(f64::from));
     for body in present(model) {
         let at = state.position(body, state.now);
@@ -83,8 +90,11 @@ fn distance(model: &Model, state: &State, body: u32, other: Other, time: f64) ->
     }
 }
 
-/// Every pair that shares a tile, once, in order.
-fn for_each_neighbour(model: &Model, state: &State, mut visit: impl FnMut(u32, Other)) {
+/// Overlaps listed at most: bodies piled on one point would give as many as there are pairs.
+const MOST_WARNINGS: usize = 200;
+
+/// Every pair that shares a tile, once, in order, until `visit` says that it has seen enough.
+fn for_each_neighbour(model: &Model, state: &State, mut visit: impl FnMut(u32, Other) -> bool) {
     let mut others = Vec::new();
     for body in present(model) {
         others.clear();
@@ -97,8 +107,8 @@ fn for_each_neighbour(model: &Model, state: &State, mut visit: impl FnMut(u32, O
         others.extend(model.static_tiles.large().iter().map(|other| Other::Fixed(*other)));
         others.sort_unstable();
         others.dedup();
-        for other in &others {
-            visit(body, *other);
+        if !others.iter().all(|other| visit(body, *other)) {
+            return;
         }
     }
 }

@@ -69,6 +69,7 @@ fn in_core(model: &Model, at: DVec3) -> bool {
         Law::Point { center, intensity } if intensity > 0.0 => {
             (at - center).length() < 0.5 * model.params.core_radius
         }
+        Law::Point { center, intensity } if intensity < 0.0 => at == center,
         _ => false,
     })
 }
