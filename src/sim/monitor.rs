@@ -28,7 +28,7 @@ pub(super) fn start_warnings(model: &Model, state: &State) -> Vec<Diagnostic> {
             let (a, b) = (&model.movers[body as usize].identity, other.identity(model));
             warnings.push(warning(
                 a,
-                format!("bodies {} and {} overlap by {depth:.3e} m at the start", a.label, b.label),
+                format!("bodies {} and {} overlap by {} m at the start", a.label, b.label, meters(depth)),
                 "move them apart; the run goes on, but they can part only by moving away from each other",
             ));
         }
@@ -53,6 +53,11 @@ pub(super) fn start_warnings(model: &Model, state: &State) -> Vec<Diagnostic> {
     }
     warnings.sort_by_key(|warning| warning.key);
     warnings
+}
+
+/// Four digits, without an exponent where a person would write none.
+fn meters(length: f64) -> String {
+    if (1e-3..1e4).contains(&length) { format!("{length:.4}") } else { format!("{length:.3e}") }
 }
 
 fn warning(identity: &Identity, message: String, hint: &str) -> Diagnostic {
