@@ -71,7 +71,8 @@ pub(super) enum Compiled {
 
 pub(super) fn compile_body(body: &Body, order: u32) -> Result<Compiled, Diagnostic> {
     check_numbers(body)?;
-    let identity = Identity { key: body.key, id: body.id, label: Arc::from(body.label.as_str()), order };
+    let identity =
+        Box::new(Identity { key: body.key, id: body.id, label: Arc::from(body.label.as_str()), order });
     match (&body.motion, &body.shape) {
         (Motion::Dynamic { mass, velocity }, Shape::Sphere { radius }) => Ok(Compiled::Mover(
             MoverInfo {
@@ -105,7 +106,7 @@ pub(super) fn compile_body(body: &Body, order: u32) -> Result<Compiled, Diagnost
                 identity,
                 bounce: body.bounce,
                 position: body.position,
-                shape: FixtureShape::Plate(plate),
+                shape: FixtureShape::Plate(Box::new(plate)),
                 present: true,
             }))
         }

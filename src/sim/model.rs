@@ -35,7 +35,8 @@ pub(super) struct Identity {
 /// What does not change about a dynamic body.
 #[derive(Clone, Debug)]
 pub(super) struct MoverInfo {
-    pub identity: Identity,
+    /// Apart, since predictions never look at it.
+    pub identity: Box<Identity>,
     /// kg.
     pub mass: f64,
     /// m.
@@ -49,7 +50,7 @@ pub(super) struct MoverInfo {
 /// A static body.
 #[derive(Clone, Debug)]
 pub(super) struct Fixture {
-    pub identity: Identity,
+    pub identity: Box<Identity>,
     pub bounce: f64,
     /// m.
     pub position: DVec3,
@@ -59,8 +60,11 @@ pub(super) struct Fixture {
 
 #[derive(Clone, Debug)]
 pub(super) enum FixtureShape {
-    Sphere { radius: f64 },
-    Plate(Plate),
+    Sphere {
+        radius: f64,
+    },
+    /// Apart, so that a static body fills one cache line.
+    Plate(Box<Plate>),
 }
 
 /// A bounded plane in world coordinates.

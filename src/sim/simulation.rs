@@ -281,9 +281,9 @@ impl Simulation {
 
     fn identity(&self, body: BodyRef) -> Option<&Identity> {
         match body {
-            BodyRef::Dynamic(index) => self.model.movers.get(index as usize).map(|mover| &mover.identity),
+            BodyRef::Dynamic(index) => self.model.movers.get(index as usize).map(|mover| &*mover.identity),
             BodyRef::Static(index) => {
-                self.model.fixtures.get(index as usize).map(|fixture| &fixture.identity)
+                self.model.fixtures.get(index as usize).map(|fixture| &*fixture.identity)
             }
         }
     }

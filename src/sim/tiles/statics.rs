@@ -137,7 +137,7 @@ mod tests {
     }
 
     fn fixture(position: DVec3, shape: FixtureShape) -> Fixture {
-        let identity = Identity { key: NodeKey(0), id: 0, label: Arc::from("0"), order: 0 };
+        let identity = Box::new(Identity { key: NodeKey(0), id: 0, label: Arc::from("0"), order: 0 });
         Fixture { identity, bounce: 1.0, position, shape, present: true }
     }
 
@@ -153,7 +153,7 @@ mod tests {
             half_x: 0.05 + 4.0 * random.unit(),
             half_y: 0.05 + 4.0 * random.unit(),
         };
-        (fixture(center, FixtureShape::Plate(plate)), plate)
+        (fixture(center, FixtureShape::Plate(Box::new(plate))), plate)
     }
 
     /// Every point of a plate lies in a tile that lists it; a listed tile has a point near the plate.
@@ -206,7 +206,7 @@ mod tests {
             half_x: 5.0,
             half_y: 5.0,
         };
-        let wall = fixture(plate.center, FixtureShape::Plate(plate));
+        let wall = fixture(plate.center, FixtureShape::Plate(Box::new(plate)));
         let tiles = StaticTiles::new(&grid, &[wall], 4096);
         assert_eq!(tiles.large(), [0]);
         assert!(tiles.occupied().is_empty());
