@@ -1,11 +1,10 @@
 //! `polyscene check`: every problem of scene files, one per line.
 
-use std::io::Write as _;
 use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{CliError, input};
+use super::{CliError, input, output};
 
 /// Print every problem of scene files
 ///
@@ -21,12 +20,10 @@ pub struct CheckArgs {
 
 pub(super) fn check(args: &CheckArgs) -> Result<(), CliError> {
     let (mut errors, mut warnings) = (0, 0);
-    let mut stdout = std::io::stdout().lock();
     for file in &args.files {
         let examined = input::open(file)?;
         for line in examined.lines(&input::display_name(file)) {
-            // A reader that went away (`| head`) has seen enough; the exit code still tells.
-            let _ = writeln!(stdout, "{line}");
+            output::print(format!("{line}\n").as_bytes())?;
         }
         errors += examined.error_count();
         warnings += examined.problems.len() - examined.error_count();

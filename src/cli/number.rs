@@ -1,15 +1,24 @@
 //! Numbers of the command line, and complaints that name the way out.
 
-/// Seconds: a finite number above 0, or a fraction such as `1/60`.
+/// The latest model time, s. Neighbouring numbers are 1e-7 s apart there: contacts are not told apart well.
+const LATEST: f64 = 1e9;
+
+/// A length of time in seconds: above 0, see [`any_seconds`].
 pub fn seconds(text: &str) -> Result<f64, String> {
+    let value = any_seconds(text)?;
+    if value > 0.0 { Ok(value) } else { Err("must be more than 0 seconds".into()) }
+}
+
+/// Seconds: a number of at most [`LATEST`], or a fraction such as `1/60`.
+pub(super) fn any_seconds(text: &str) -> Result<f64, String> {
     let value = match text.split_once('/') {
         Some((top, bottom)) => number(top)? / number(bottom)?,
         None => number(text)?,
     };
     if !value.is_finite() {
         Err("must be a finite number of seconds".into())
-    } else if value <= 0.0 {
-        Err("must be more than 0 seconds".into())
+    } else if value > LATEST {
+        Err(format!("must be at most {LATEST:e} seconds, where time is resolved to 1e-7 s"))
     } else {
         Ok(value)
     }

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use super::CliError;
+use crate::scene::canonical_target;
 
 /// Bytes gathered before they are handed to the system in one call.
 const BATCH: usize = 32 * 1024;
@@ -14,6 +15,27 @@ const BATCH: usize = 32 * 1024;
 /// Whether `path` means standard output.
 pub fn is_stdout(path: &Path) -> bool {
     path.as_os_str() == "-"
+}
+
+/// One name for the file that `path` means, or `-`.
+pub fn place(path: &Path) -> PathBuf {
+    if is_stdout(path) { path.into() } else { canonical_target(path) }
+}
+
+/// Whether writing to `output` would destroy `scene`, which may be standard input.
+pub fn overwrites(output: &Path, scene: &Path) -> bool {
+    !is_stdout(scene) && place(output) == place(scene)
+}
+
+/// Writes to standard output. A reader that went away (`| head`) has seen enough.
+pub fn print(bytes: &[u8]) -> Result<(), CliError> {
+    let mut stdout = std::io::stdout().lock();
+    match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(CliError::unwritable("standard output", &error))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Writes JSON Lines. Only whole lines are ever handed to the system.

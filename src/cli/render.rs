@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
 
-use super::{CliError, input, number};
+use super::{CliError, input, number, output};
 use crate::record::{Frame, InlineRunner, RunCommand, RunState, Runner as _};
 use crate::render::{Offscreen, RenderError, Tile, render_picture, write_png};
-use crate::scene::Scene;
+use crate::scene::{Scene, check_writable};
 use crate::sim::Fault;
 use crate::view::{
     Align, Camera, DrawList, Label, OVERLAYS, OverlaySet, Theme, VIEWS, ViewInput, ViewPreset, Viewport,
@@ -18,7 +18,8 @@ use crate::view::{
 /// Draw a scene into a PNG file
 ///
 /// Needs neither a display nor a GPU: OpenGL runs in software through EGL. Shows the start, or the state
-/// at `--at` with the contacts of the last Δt.
+/// at `--at` with the contacts of the last Δt. A simulation that stops before `--at` on a numerical fault
+/// gives no picture, tells why, and ends with exit code 3.
 #[derive(Debug, Args)]
 #[command(after_help = after_help())]
 pub struct RenderArgs {
@@ -77,6 +78,10 @@ enum Colors {
 const GAP: u32 = 2;
 
 pub(super) fn render(args: &RenderArgs) -> Result<(), CliError> {
+    let unwritable = |error| CliError::unwritable(args.out.display(), &error);
+    if output::overwrites(&args.out, &args.scene) {
+        return Err(CliError::Usage(format!("--out would overwrite the scene {}", args.out.display())));
+    }
     let name = input::display_name(&args.scene);
     let examined = input::open(&args.scene)?;
     for line in examined.lines(&name) {
@@ -85,6 +90,7 @@ pub(super) fn render(args: &RenderArgs) -> Result<(), CliError> {
     let (Some(scene), Some(_)) = (examined.document.scene(), examined.simulation) else {
         return Err(CliError::Scene(format!("{name} can't be drawn: it has errors")));
     };
+    check_writable(&args.out).map_err(unwritable)?;
     let frame = frame_at(scene, args.at, args.dt).map_err(CliError::Fault)?;
 
     let mut offscreen = Offscreen::new().map_err(|error| unusable(&error))?;
@@ -95,8 +101,7 @@ pub(super) fn render(args: &RenderArgs) -> Result<(), CliError> {
     let [r, g, b, _] = args.theme().palette().map_box.0;
     let picture = render_picture(&mut offscreen, args.size, [r, g, b, 255], &tiles)
         .map_err(|error| unusable(&error))?;
-    write_png(&args.out, picture.as_raw(), args.size)
-        .map_err(|error| CliError::unwritable(args.out.display(), &error))
+    write_png(&args.out, picture.as_raw(), args.size).map_err(unwritable)
 }
 
 fn unusable(error: &RenderError) -> CliError {
@@ -177,7 +182,8 @@ fn frame_at(scene: &Scene, at: f64, dt: f64) -> Result<Arc<Frame>, Fault> {
 
 /// Seconds; the start, which is no length of time, counts.
 fn moment(text: &str) -> Result<f64, String> {
-    if text.parse() == Ok(0.0) { Ok(0.0) } else { number::seconds(text) }
+    let value = number::any_seconds(text)?;
+    if value >= 0.0 { Ok(value) } else { Err("must be 0 or more".into()) }
 }
 
 fn zoom(text: &str) -> Result<f64, String> {

@@ -21,7 +21,7 @@ const TITLES: [(&str, &str); 8] = [
     ("t [s]", "Model time"),
     ("Δt", "Where in the Δt it happened, 0 % to 100 %"),
     ("Kind", "What happened"),
-    ("Bodies", "Who took part; events with one number at the left were resolved together"),
+    ("Bodies", "Who took part; impacts of the same instant are resolved one after the other"),
     (
         "Normal speed before → after [m/s]",
         "Speed along the normal, of the second body relative to the first: negative when closing",

@@ -24,5 +24,5 @@ pub use document::Document;
 pub use edit::{BodyChange, Edit, EditError, Edited, ForceChange};
 pub use number::NumberStyle;
 pub use params::{PARAMS, ParamInfo, SimParams};
-pub use save::write_atomically;
+pub use save::{canonical_target, check_writable, write_atomically};
 pub use types::{Body, Force, ForceKind, Map, Motion, NodeKey, Scene, Shape, rotation_matrix};

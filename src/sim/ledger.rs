@@ -95,6 +95,7 @@ pub struct Event {
     /// Normal component of the velocity of `b` relative to `a` along `normal`: negative when closing, m/s.
     pub vn_before: f64,
     pub vn_after: f64,
-    /// Rows with the same number were resolved together.
+    /// Number of the impact, from 1: each is a group of its own, also among those of the same instant. 0 for
+    /// events that resolve no impact.
     pub group: u64,
 }

@@ -1,11 +1,14 @@
-//! The loop of a run: Δt after Δt, event after event, looking for a reason to stop in between.
+//! The loop of a run: Δt after Δt, event after event, looking often for a reason to stop.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::recorder::Recorder;
 use super::samples::SampleGrid;
 use crate::cli::CliError;
-use crate::sim::{Fault, Simulation};
+use crate::sim::{Fault, Progress, Simulation};
+
+/// Predictions carried out between two looks at the clock: a Δt may hold millions that are no events.
+const PREDICTIONS: u32 = 64;
 
 /// Why a run ended.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,17 +31,15 @@ pub fn drive(
     for step in 1..=grid.steps {
         sim.begin(grid.time(step));
         loop {
-            match sim.next_event() {
-                Ok(Some(event)) => recorder.event(sim, &event, step)?,
-                Ok(None) => break,
+            match sim.work(PREDICTIONS) {
+                Ok(Progress::Event(event)) => recorder.event(sim, &event, step)?,
+                Ok(Progress::Working) => {}
+                Ok(Progress::Done) => break,
                 Err(fault) => return Ok(Ending::Faulted(fault)),
             }
             if let Some(ending) = reason_to_stop(sim, recorder, stop)? {
                 return Ok(ending);
             }
-        }
-        if let Err(fault) = sim.finish(&mut |_, _| {}) {
-            return Ok(Ending::Faulted(fault));
         }
         recorder.sample(sim, step)?;
         if let Some(ending) = reason_to_stop(sim, recorder, stop)? {

@@ -1,12 +1,19 @@
 //! The scene with the last state as its start.
 
-use std::io::Write as _;
 use std::path::Path;
 
 use crate::cli::CliError;
-use crate::cli::output::is_stdout;
-use crate::scene::{BodyChange, Document, Edit};
+use crate::cli::output::{self, is_stdout};
+use crate::scene::{BodyChange, Document, Edit, check_writable};
 use crate::sim::Simulation;
+
+/// Refuses a file that can't be written, before a long run.
+pub fn check(path: &Path) -> Result<(), CliError> {
+    if is_stdout(path) {
+        return Ok(());
+    }
+    check_writable(path).map_err(|error| CliError::unwritable(path.display(), &error))
+}
 
 /// Writes `document` with the positions and velocities of `sim` now; a file is replaced in one go.
 pub fn write(document: &Document, sim: &Simulation, path: &Path) -> Result<(), CliError> {
@@ -21,12 +28,7 @@ pub fn write(document: &Document, sim: &Simulation, path: &Path) -> Result<(), C
         .apply(&Edit::All(changes.flatten().collect()))
         .map_err(|error| CliError::Usage(format!("can't write the last state into the scene: {error}")))?;
     if is_stdout(path) {
-        return match std::io::stdout().write_all(&edited.document.to_bytes()) {
-            Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-                Err(CliError::unwritable("standard output", &error))
-            }
-            _ => Ok(()),
-        };
+        return output::print(&edited.document.to_bytes());
     }
     edited.document.save(path).map_err(|error| CliError::unwritable(path.display(), &error))
 }

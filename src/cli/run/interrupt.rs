@@ -1,11 +1,11 @@
-//! Ctrl-C ends a run between two events, so that files end with a whole line; twice ends it at once.
+//! Ctrl-C ends a run between two predictions, so that files end with a whole line; twice ends it at once.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 static STOP: AtomicBool = AtomicBool::new(false);
 
-/// Nobody who asks a program to end waits longer than this for the next event.
+/// Nobody who asks a program to end waits longer than this for the next look.
 const PATIENCE: Duration = Duration::from_secs(2);
 
 /// The flag that Ctrl-C (or a request to terminate) raises from now on.

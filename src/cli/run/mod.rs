@@ -18,7 +18,7 @@ use self::drive::Ending;
 use self::recorder::Recorder;
 use self::samples::SampleGrid;
 use self::summary::Summary;
-use super::output::is_stdout;
+use super::output::{self, is_stdout};
 use super::{CliError, input, number};
 use crate::sim::EventKind;
 
@@ -96,6 +96,9 @@ pub(super) fn run(args: &RunArgs) -> Result<(), CliError> {
     };
 
     let stop = interrupt::on_interrupt();
+    if let Some(path) = args.final_scene.as_deref() {
+        final_scene::check(path)?;
+    }
     let mut recorder = Recorder::create(args, &grid)?;
     let started = Instant::now();
     let ending = drive::drive(&mut sim, &grid, &mut recorder, stop)?;
@@ -139,14 +142,13 @@ fn refuse_clashing_outputs(args: &RunArgs) -> Result<(), CliError> {
         taken.push(("--json", "-".into()));
     }
     for (option, path) in args.outputs() {
-        // A file that is not there yet has no canonical path; its own will do.
-        let place = path.canonicalize().unwrap_or_else(|_| path.into());
+        let place = output::place(path);
         if let Some((other, _)) = taken.iter().find(|(_, p)| *p == place) {
             let place = if is_stdout(path) { "standard output".into() } else { path.display().to_string() };
             return Err(CliError::Usage(format!("{other} and {option} can't both write to {place}")));
         }
         // `--final` replaces the file in one go after it was read; rows would destroy it at once.
-        if option != "--final" && args.scene.canonicalize().is_ok_and(|scene| scene == place) {
+        if option != "--final" && output::overwrites(path, &args.scene) {
             return Err(CliError::Usage(format!("{option} would overwrite the scene {}", path.display())));
         }
         taken.push((option, place));
@@ -179,6 +181,7 @@ Events, one row per contact:
   a has the smaller UserID; b is null for an event of one body
   point is on the surfaces, in m; normal is the unit vector from a to b
   impulse is in N·s; vn is the speed of b against a along normal, in m/s
-  rows of one group were resolved together; dt_index is the Δt, from 1
+  group numbers the impacts, each of which is a group of its own: those of the same instant
+  are resolved one after the other; it is 0 for other kinds; dt_index is the Δt, from 1
 
 Ids are UserIDs; the k-th body of a repeated UserID is called UserID#k.";

@@ -1,13 +1,12 @@
 //! What a run came to, for programs (JSON) and for people.
 
 use std::fmt::Write as _;
-use std::io::{ErrorKind, Write as _};
 
 use serde::{Serialize, Serializer};
 
 use super::drive::Ending;
 use super::samples::SampleGrid;
-use crate::cli::CliError;
+use crate::cli::{CliError, output};
 use crate::sim::{Energy, EventKind, Plan, Simulation};
 
 /// The object that `--json` prints. What can't be computed is `null`.
@@ -121,11 +120,11 @@ impl<'a> Summary<'a> {
     pub fn print_json(&self) -> Result<(), CliError> {
         let text =
             serde_json::to_string(self).map_err(|error| CliError::unwritable("--json", &error.into()))?;
-        print(&format!("{text}\n"))
+        output::print(format!("{text}\n").as_bytes())
     }
 
     pub fn print_for_people(&self, scene: &str, method: &str) -> Result<(), CliError> {
-        print(&self.for_people(scene, method))
+        output::print(self.for_people(scene, method).as_bytes())
     }
 
     fn for_people(&self, scene: &str, method: &str) -> String {
@@ -224,13 +223,4 @@ fn small(value: f64) -> String {
 
 fn line(text: &mut String, label: &str, value: &str) {
     let _ = writeln!(text, "  {label:<10}{value}");
-}
-
-fn print(text: &str) -> Result<(), CliError> {
-    match std::io::stdout().write_all(text.as_bytes()) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-            Err(CliError::unwritable("standard output", &error))
-        }
-        _ => Ok(()),
-    }
 }

@@ -3,6 +3,7 @@
 mod any_bytes;
 mod check;
 mod documents;
+mod outputs;
 mod run;
 mod streams;
 mod usage;

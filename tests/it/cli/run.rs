@@ -205,12 +205,20 @@ fn a_numerical_fault_stops_the_run_and_says_where() {
     let summary = &rows(&outcome.stdout)[0];
     assert!(summary["stopped"].as_str().is_some_and(|why| why.contains("body 7")), "{summary}");
     assert!(!bench.path("final.xml").exists(), "the end was never reached");
+
+    #[cfg(feature = "render")]
+    {
+        let outcome = bench.polyscene(&["render", "scene.xml", "-o", "picture.png", "--at", "1"]);
+        assert_eq!(outcome.code, 3, "{}", outcome.stderr);
+        assert!(outcome.stderr.contains("stopped at t = 0 s: body 7"), "{}", outcome.stderr);
+        assert!(!bench.path("picture.png").exists(), "a picture of another time");
+    }
 }
 
 #[test]
 fn what_is_not_a_number_is_null() {
-    // Twice as far as f64 reaches, at a speed whose square it still holds.
-    let bench = Bench::with_scene(&BOUNCE.replace("-9,8", "1E+153"));
-    let states = rows(&run(&bench, &["--dt", "1e155", "--until", "2e155", "--states", "-"]));
+    // Farther than f64 reaches.
+    let bench = Bench::with_scene(&BOUNCE.replace("-9,8", "1E+292"));
+    let states = rows(&run(&bench, &["--dt", "5e8", "--until", "1e9", "--states", "-"]));
     assert_eq!(states[2]["bodies"][0]["x"][1], Value::Null, "{states:?}");
 }

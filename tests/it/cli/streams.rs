@@ -4,7 +4,7 @@ use std::io::{BufRead as _, BufReader};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use super::{BOUNCE, Bench, rows};
+use super::{BOUNCE, Bench, rows, scenes_folder};
 
 /// Longer than any test waits: 10⁷ rows.
 const FOR_EVER: [&str; 6] = ["run", "scene.xml", "--dt", "1e-4", "--until", "1e3"];
@@ -27,12 +27,10 @@ fn a_closed_pipe_ends_the_run_quietly() {
     assert_eq!(String::from_utf8_lossy(&output.stderr), "");
 }
 
-#[test]
-fn ctrl_c_leaves_whole_lines() {
-    let bench = Bench::with_scene(BOUNCE);
-    let options = ["--states", "states.jsonl", "--final", "final.xml"];
+/// Starts a run that writes `states.jsonl` and presses Ctrl-C once a row is there: how it ended, what it said.
+fn interrupted(bench: &Bench, arguments: &[&str]) -> (Option<i32>, String) {
     let child = bench
-        .command(&[&FOR_EVER[..], &options].concat())
+        .command(arguments)
         .stdout(Stdio::null())
         .stderr(Stdio::piped())
         .spawn()
@@ -46,10 +44,30 @@ fn ctrl_c_leaves_whole_lines() {
     let killed = Command::new("sh").args(["-c", &format!("kill -INT {}", child.id())]).status();
     assert!(killed.is_ok_and(|status| status.success()));
     let output = child.wait_with_output().expect("the program ends");
-    assert_eq!(output.status.code(), Some(130));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("interrupted at t = "));
+    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+}
+
+#[test]
+fn ctrl_c_leaves_whole_lines() {
+    let bench = Bench::with_scene(BOUNCE);
+    let options = ["--states", "states.jsonl", "--final", "final.xml"];
+    let (code, complaint) = interrupted(&bench, &[&FOR_EVER[..], &options].concat());
+    assert_eq!(code, Some(130));
+    assert!(complaint.contains("interrupted at t = "), "{complaint}");
     assert!(!rows(&bench.read("states.jsonl")).is_empty());
     assert!(!bench.path("final.xml").exists(), "the end was never reached");
+}
+
+#[test]
+fn ctrl_c_reaches_a_run_within_a_step_without_events() {
+    let orbit = scenes_folder().join("orbit.xml");
+    let orbit = orbit.to_str().expect("UTF-8 paths");
+    let bench = Bench::new();
+    let (code, complaint) =
+        interrupted(&bench, &["run", orbit, "--dt", "1e8", "--until", "1e8", "--states", "states.jsonl"]);
+    assert_eq!(code, Some(130));
+    // A run that does not look at the request in time is ended without a word.
+    assert!(complaint.contains("interrupted at t = "), "{complaint}");
 }
 
 #[cfg(target_os = "linux")]

@@ -7,7 +7,7 @@ use super::{BOUNCE, Bench};
 #[test]
 fn bad_arguments_are_refused_with_the_way_out() {
     let bench = Bench::with_scene(BOUNCE);
-    let cases: [(&[&str], &str); 15] = [
+    let cases: [(&[&str], &str); 18] = [
         (&["run", "scene.xml"], "--dt"),
         (&["run", "scene.xml", "--dt", "1"], "--until"),
         (&["run", "scene.xml", "--dt", "0", "--until", "1"], "more than 0"),
@@ -15,6 +15,9 @@ fn bad_arguments_are_refused_with_the_way_out() {
         (&["run", "scene.xml", "--dt", "NaN", "--until", "1"], "finite"),
         (&["run", "scene.xml", "--dt", "1/0", "--until", "1"], "finite"),
         (&["run", "scene.xml", "--dt", "1", "--until", "inf"], "finite"),
+        (&["run", "scene.xml", "--dt", "1e308", "--until", "1e308"], "at most 1e9 seconds"),
+        (&["render", "scene.xml", "-o", "x.png", "--at", "1.1e9"], "at most 1e9 seconds"),
+        (&["render", "scene.xml", "-o", "x.png", "--at", "-1"], "0 or more"),
         (&["run", "scene.xml", "--dt", "0,1", "--until", "1"], "decimal point"),
         (&["run", "scene.xml", "--dt", "fast", "--until", "1"], "1/60"),
         (&["run", "scene.xml", "--dt", "2", "--until", "1"], "longer than --until"),
