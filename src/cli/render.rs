@@ -30,7 +30,7 @@ pub struct RenderArgs {
     #[arg(short, long, value_name = "OUT.png")]
     out: PathBuf,
 
-    /// Model time to show, in seconds
+    /// Model time to show, in seconds from 0 to 1e9
     #[arg(long, value_name = "S", value_parser = moment, allow_negative_numbers = true, default_value = "0")]
     at: f64,
 

@@ -37,7 +37,7 @@ pub struct RunArgs {
     #[arg(long, value_name = "S", value_parser = number::seconds, allow_negative_numbers = true)]
     dt: f64,
 
-    /// Model time at which to end, in seconds
+    /// Model time at which to end, in seconds; at most 1e9
     #[arg(long, value_name = "S", value_parser = number::seconds, allow_negative_numbers = true)]
     until: f64,
 
