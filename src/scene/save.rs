@@ -39,7 +39,11 @@ struct Target {
 impl Target {
     /// Refuses what can't be replaced.
     fn of(path: &Path) -> io::Result<Self> {
-        let path = follow_links(path)?;
+        let path = match fs::metadata(path) {
+            // The link of an open pipe (`/dev/fd/3`) names no place; only the system can follow it.
+            Ok(metadata) if !metadata.is_file() => path.to_path_buf(),
+            _ => follow_links(path)?,
+        };
         let existing = match fs::metadata(&path) {
             Ok(metadata) => Some(metadata),
             Err(err) if matches!(err.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => None,

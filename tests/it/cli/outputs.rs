@@ -56,6 +56,15 @@ fn the_last_state_may_go_to_the_null_device() {
 
 #[cfg(target_os = "linux")]
 #[test]
+fn the_last_state_may_go_into_an_open_pipe() {
+    let bench = Bench::with_scene(BOUNCE);
+    let outcome = bench.polyscene(&[&RUN[..], &["--final", "/dev/stderr"]].concat());
+    assert_eq!(outcome.code, 0, "{}", outcome.stderr);
+    assert!(outcome.stderr.ends_with("</PolyPhysicsXml>\n"), "{}", outcome.stderr);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
 fn problems_that_cant_be_printed_are_told() {
     let bench = Bench::new();
     bench.write("bad.xml", BOUNCE.replace("0,5", "-1"));
