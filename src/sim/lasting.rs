@@ -63,7 +63,7 @@ const PRESSURE_SAMPLES: u32 = 8;
 fn lift_time(model: &Model, state: &State, body: u32, contact: &Contact) -> Option<f64> {
     let segment = &state.segments[body as usize];
     let contacts = &state.contacts[body as usize];
-    let Some(index) = contacts.iter().position(|other| other.fixture == contact.fixture) else { return None };
+    let index = contacts.iter().position(|other| other.fixture == contact.fixture)?;
     let pressed = |time: f64| {
         let subject = subject(model, state, body, time);
         let touches = touches_at(model, contacts, subject.radius, subject.position, subject.velocity);
