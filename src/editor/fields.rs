@@ -24,6 +24,25 @@ pub struct Field<T: 'static, C: 'static> {
     pub now: Option<fn(&BodyFrame) -> DVec3>,
 }
 
+/// What a range allows, in words; `None` where it allows everything.
+pub fn limits(range: (f64, f64)) -> Option<String> {
+    match range {
+        (low, high) if low.is_finite() && high.is_finite() => {
+            Some(format!("must lie between {low} and {high}"))
+        }
+        POSITIVE => Some("must be above 0".to_owned()),
+        NOT_NEGATIVE => Some("must not be negative".to_owned()),
+        (low, _) if low.is_finite() => Some(format!("must be at least {low}")),
+        (_, high) if high.is_finite() => Some(format!("must be at most {high}")),
+        _ => None,
+    }
+}
+
+/// Whether a range allows a typed value; drags of what must be above 0 stop a little earlier.
+pub fn allows(range: (f64, f64), value: f64) -> bool {
+    if range == POSITIVE { value > 0.0 } else { (range.0..=range.1).contains(&value) }
+}
+
 /// What several objects have in common.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shared {

@@ -1,5 +1,6 @@
 //! The transport's settings, and where the simulation stands as far as commands sent can tell.
 
+use super::parse_number;
 use crate::record::{Frame, RunState};
 
 /// Shortest and longest Δt a person may ask for, s. Below, a step is lost in the rounding of the time;
@@ -86,19 +87,4 @@ impl Playback {
             self.went_to_start();
         }
     }
-}
-
-/// Reads a number or a fraction of two, with comma or point: `0.01`, `0,01`, `1/60`, `1e-3`.
-/// `None` for anything else and for what is not finite.
-pub fn parse_number(text: &str) -> Option<f64> {
-    let plain = |part: &str| -> Option<f64> {
-        let part = part.trim().replace(',', ".");
-        let written_as_number = part.bytes().all(|b| b.is_ascii_digit() || b"+-.eE".contains(&b));
-        if written_as_number { part.parse().ok() } else { None }
-    };
-    let value = match text.split_once('/') {
-        Some((above, below)) => plain(above)? / plain(below)?,
-        None => plain(text)?,
-    };
-    value.is_finite().then_some(value)
 }

@@ -237,6 +237,11 @@ impl Session {
             self.tell_fault(&frame);
         }
         self.frame = frame;
+        let listed =
+            |row: &Arc<EventRow>| self.frame.events.iter().any(|other| other.event.seq == row.event.seq);
+        if self.shown_event.as_ref().is_some_and(|row| !listed(row)) {
+            self.shown_event = None;
+        }
         self.sync_when_settled(now);
         if self.open_gesture().is_none() {
             self.keep_recovery(now);
@@ -355,6 +360,7 @@ impl Session {
     pub(super) fn reset(&mut self) {
         self.settle();
         self.stop_playing();
+        self.shown_event = None;
         let Some(running) = &self.running else { return };
         if running.edited || running.needs_reset {
             if let Some(scene) = self.scene().cloned() {
@@ -363,7 +369,6 @@ impl Session {
         } else {
             self.runner.send(RunCommand::Reset);
             self.playback.went_to_start();
-            self.shown_event = None;
         }
     }
 
@@ -373,6 +378,7 @@ impl Session {
         if !matches!(command, RunCommand::Play { .. }) {
             self.stop_playing();
         }
+        self.shown_event = None;
         self.runner.send(command);
         self.playback.went_on();
     }
@@ -380,6 +386,7 @@ impl Session {
     pub(super) fn go_back(&mut self, command: RunCommand) {
         self.settle();
         self.stop_playing();
+        self.shown_event = None;
         self.runner.send(command);
         self.playback.went_back(&self.frame);
     }

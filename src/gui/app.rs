@@ -46,6 +46,8 @@ pub struct App {
     toasts: Toasts,
     layout: PanelLayout,
     start_closed: bool,
+    /// Whether a text field had the keyboard at the end of the last turn.
+    was_typing: bool,
     title: String,
     pub(super) repaints: u64,
     pub(super) pace: Pace,
@@ -71,6 +73,9 @@ pub(super) struct PanelLayout {
 }
 
 const STORAGE_KEY: &str = "polyscene layout";
+
+/// Size below which panels no longer have the room they want, points.
+pub(super) const TIGHT: [f32; 2] = [800.0, 500.0];
 
 impl App {
     /// Works without OpenGL (`cc.gl` is `None` in tests): the views are then empty.
@@ -102,6 +107,7 @@ impl App {
             toasts,
             layout,
             start_closed: false,
+            was_typing: false,
             title: String::new(),
             repaints: 0,
             pace: Pace { frame_s: 0.0 },
@@ -138,7 +144,7 @@ impl App {
             || egui::Popup::is_any_open(ctx)
             || self.views.is_dragging();
         if !blocked {
-            shortcuts::collect(ctx, &self.outbox, self.views.have_focus(ctx));
+            shortcuts::collect(ctx, &self.outbox, self.views.have_focus(ctx), self.was_typing);
         }
         let (dropped, focused, closing) = ctx.input(|input| {
             let dropped = input.raw.dropped_files.first().map(|file| file.path().to_owned());
@@ -172,7 +178,8 @@ impl App {
         }
         if self.opened != self.session.opened_count() {
             self.opened = self.session.opened_count();
-            self.start_closed = false;
+            // the card is for the program's start; who asks for a new scene wants that
+            self.start_closed = true;
             self.views.opened();
         }
     }
@@ -199,20 +206,23 @@ impl App {
         let (menu_bar, tool_bar) = (bar(egui::Margin::symmetric(6, 2)), bar(egui::Margin::symmetric(6, 3)));
         let flush = bar(egui::Margin::ZERO);
         egui::Panel::top("menu").frame(menu_bar).show(ui, |ui| {
-            menu::show(ui, &context, self.views.active_overlays());
+            menu::show(ui, &context, self.views.active_overlays(), self.views.snapping);
         });
         egui::Panel::top("transport").frame(tool_bar).exact_size(34.0).show(ui, |ui| {
-            self.transport.show(ui, &context, self.views.layout());
+            self.transport.show(ui, &context, self.views.layout(), self.views.snapping);
         });
         egui::Panel::bottom("status").frame(menu_bar).exact_size(24.0).show(ui, |ui| {
             status::show(ui, &context, &self.pace);
         });
-        egui::Panel::right("inspector")
+        // a window made tiny squeezes panels of its own, so that the usual ones come back as they were
+        let tight = ctx.content_rect().width() < TIGHT[0] || ctx.content_rect().height() < TIGHT[1];
+        let panel = |name: &'static str| (name, tight);
+        egui::Panel::right(panel("inspector"))
             .frame(flush)
             .default_size(344.0)
             .size_range(240.0..=560.0)
             .show(ui, |ui| self.inspector.show(ui, &context));
-        egui::Panel::bottom("lists")
+        egui::Panel::bottom(panel("lists"))
             .frame(flush)
             .default_size(176.0)
             .size_range(60.0..=500.0)
@@ -220,9 +230,12 @@ impl App {
         egui::Panel::bottom("strip").frame(flush).exact_size(strip::HEIGHT).show(ui, |ui| {
             strip::show(ui, &context);
         });
-        egui::Panel::left("tree").frame(flush).default_size(228.0).size_range(140.0..=460.0).show(ui, |ui| {
-            self.tree.show(ui, &context);
-        });
+        egui::Panel::left(panel("tree")).frame(flush).default_size(228.0).size_range(140.0..=460.0).show(
+            ui,
+            |ui| {
+                self.tree.show(ui, &context);
+            },
+        );
         let area = egui::CentralPanel::no_frame().show(ui, |ui| {
             self.views.show(ui, &context);
             ui.min_rect()
@@ -277,6 +290,7 @@ impl App {
             Message::ShowProblems => self.layout.tab = Tab::Problems,
             Message::OverlaysInAllViews(overlays) => self.views.set_overlays(overlays),
             Message::Tell(text) => self.toasts.add(Notice::info(text)),
+            Message::Warn(text) => self.toasts.add(Notice::warning(text)),
         }
     }
 
@@ -386,6 +400,7 @@ impl eframe::App for App {
         self.carry_out(&ctx);
         self.schedule(&ctx);
         self.pace.frame_s = started.elapsed().as_secs_f64();
+        self.was_typing = ctx.text_edit_focused();
         self.run_script(&ctx);
     }
 

@@ -24,6 +24,8 @@ pub enum Message {
     OverlaysInAllViews(view::OverlaySet),
     /// A short message, as a toast.
     Tell(String),
+    /// As [`Self::Tell`], for what was refused.
+    Warn(String),
 }
 
 /// Collects messages during a turn of the window.

@@ -13,7 +13,6 @@ use super::theme::ROW_HEIGHT;
 use super::widgets::{cell, mono};
 use crate::editor::Action;
 use crate::record::{EventRow, Frame};
-use crate::scene::NodeKey;
 use crate::sim::EventKind;
 
 const TITLES: [(&str, &str); 8] = [
@@ -76,9 +75,15 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>) {
 fn show_row(row: &mut TableRow<'_, '_>, context: &AppContext<'_>, frame: &Frame, event: &Arc<EventRow>) {
     let chosen = context.session.shown_event().is_some_and(|shown| shown.event.seq == event.event.seq);
     row.set_selected(chosen);
+    let labels = joined(&event.a_label, &event.b_label);
     for (column, text) in cells(context, frame, event).into_iter().enumerate() {
+        let help = match column {
+            3 => event.event.kind.meaning(),
+            4 if text != labels => &labels,
+            _ => "",
+        };
         let text = if matches!(column, 3 | 4) { RichText::new(text) } else { mono(text) };
-        cell(row, text, if column == 3 { event.event.kind.meaning() } else { "" });
+        cell(row, text, help);
     }
     let response = row.response();
     if response.clicked() {
@@ -96,7 +101,10 @@ fn cells(context: &AppContext<'_>, frame: &Frame, row: &EventRow) -> [String; 8]
     let event = &row.event;
     let touching = matches!(event.kind, EventKind::Impact | EventKind::Collapse);
     let if_touching = |text: String| if touching { text } else { String::new() };
-    let [x, y, z] = event.point.to_array().map(|value| significant(value, 5));
+    // what is left of a sum that should be 0 says nothing
+    let rounding = 1e-12 * event.point.abs().max_element().max(1.0);
+    let clean = |value: f64| if value.abs() < rounding { 0.0 } else { value };
+    let [x, y, z] = event.point.to_array().map(|value| significant(clean(value), 5));
     [
         event.seq.to_string(),
         format!("{:.9}", event.time),
@@ -109,14 +117,15 @@ fn cells(context: &AppContext<'_>, frame: &Frame, row: &EventRow) -> [String; 8]
     ]
 }
 
-/// Both by name; by label where a body is gone.
+/// Who took part, by the names in the scene; what is no longer there by its label.
 pub fn bodies(context: &AppContext<'_>, row: &EventRow) -> String {
-    let name = |key: Option<NodeKey>, label: &str| {
-        let name = key.and_then(|key| context.shown?.name(key));
-        name.unwrap_or(label).to_owned()
-    };
-    let a = name(Some(row.a_key), &row.a_label);
-    if row.b_label.is_empty() { a } else { format!("{a} – {}", name(row.b_key, &row.b_label)) }
+    let name = |key| context.shown.and_then(|shown| shown.name(key));
+    let a = name(row.a_key).unwrap_or(&row.a_label);
+    joined(a, row.b_key.and_then(name).unwrap_or(&row.b_label))
+}
+
+fn joined(a: &str, b: &str) -> String {
+    if b.is_empty() { a.to_owned() } else { format!("{a} – {b}") }
 }
 
 /// Where in the Δt.

@@ -55,6 +55,13 @@ pub fn paint(painter: &Painter, square: Rect, command: Command, color: Color32) 
                 pen.polyline(&[(0.1, y), (right, y)]);
             }
         }
+        Command::ToggleSnapping => {
+            for (column, row) in (0..9_u8).map(|i| (f32::from(i % 3), f32::from(i / 3))) {
+                let radius = if column == 1.0 && row == 1.0 { 0.2 } else { 0.08 };
+                let center = pen.at(0.12 + 0.38 * column, 0.12 + 0.38 * row);
+                painter.circle_filled(center, radius * square.width(), color);
+            }
+        }
         _ => return false,
     }
     true

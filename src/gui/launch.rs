@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use egui::{Context, ViewportCommand};
 
-use super::app::{App, Parts, Tab};
+use super::app::{App, Parts, TIGHT, Tab};
 use super::dialogs::NativeFileDialogs;
 use super::error::GuiError;
 use crate::editor::{Action, COMMANDS, Command, Storage};
@@ -72,7 +72,7 @@ pub fn run(options: Options) -> Result<Report, GuiError> {
         .with_app_id("polyscene")
         .with_title("PolyScene")
         .with_inner_size(size)
-        .with_min_inner_size([800.0, 500.0]);
+        .with_min_inner_size(TIGHT);
     // a window for a script is as if it were the first one: it neither reads nor writes what was remembered
     let persistence_path =
         scripted.then(|| std::env::temp_dir().join(format!("polyscene-{}.ron", std::process::id())));
@@ -83,9 +83,13 @@ pub fn run(options: Options) -> Result<Report, GuiError> {
         ..eframe::NativeOptions::default()
     };
     native.glow_options.vsync = !scripted;
-    let scene = options.scene;
+    let (scene, wanted) = (options.scene, options.window_size);
     let creator = move |cc: &eframe::CreationContext<'_>| {
         let ctx = cc.egui_ctx.clone();
+        if let Some(size) = wanted {
+            // a size remembered from an earlier run comes before that of the builder
+            ctx.send_viewport_cmd(ViewportCommand::InnerSize(size.map(|side| side as f32).into()));
+        }
         let runner = ThreadRunner::new(move || ctx.request_repaint())?;
         let storage = if scripted { Storage::default() } else { Storage::of_user() };
         let files = Box::new(NativeFileDialogs::default());

@@ -6,13 +6,13 @@ use super::context::AppContext;
 use crate::editor::{COMMANDS, Command, CommandInfo, Menu, SAMPLES};
 use crate::view::OVERLAYS;
 
-/// Overlays of the active view, for the marks in the View menu.
-pub fn show(ui: &mut Ui, context: &AppContext<'_>, overlays: crate::view::OverlaySet) {
+/// Overlays of the active view and whether drags snap, for the marks in the View menu.
+pub fn show(ui: &mut Ui, context: &AppContext<'_>, overlays: crate::view::OverlaySet, snapping: bool) {
     egui::MenuBar::new().ui(ui, |ui| {
         for menu in Menu::ALL {
             ui.menu_button(menu.label(), |ui| {
                 ui.set_min_width(230.0);
-                rows(ui, context, menu);
+                rows(ui, context, menu, snapping);
                 match menu {
                     Menu::File => files(ui, context),
                     Menu::View => overlay_menu(ui, context, overlays),
@@ -23,7 +23,7 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>, overlays: crate::view::Overla
     });
 }
 
-fn rows(ui: &mut Ui, context: &AppContext<'_>, menu: Menu) {
+fn rows(ui: &mut Ui, context: &AppContext<'_>, menu: Menu, snapping: bool) {
     let mut group = None;
     for row in COMMANDS.iter().filter(|row| row.menu == menu) {
         if group.is_some_and(|group| group != row.group) {
@@ -34,14 +34,19 @@ fn rows(ui: &mut Ui, context: &AppContext<'_>, menu: Menu) {
             // what opens files stands together, above the way out
             continue;
         }
-        entry(ui, context, row);
+        let mark = if snapping && row.command == Command::ToggleSnapping { ": on" } else { "" };
+        marked_entry(ui, context, row, mark);
     }
 }
 
 /// One entry: label, shortcut, and in the tooltip what it does or why it can't.
 pub fn entry(ui: &mut Ui, context: &AppContext<'_>, row: &CommandInfo) {
+    marked_entry(ui, context, row, "");
+}
+
+fn marked_entry(ui: &mut Ui, context: &AppContext<'_>, row: &CommandInfo, mark: &str) {
     let enabled = (row.enabled)(context.session).is_ok();
-    let mut button = Button::new(row.label_now(context.session));
+    let mut button = Button::new(format!("{}{mark}", row.label_now(context.session)));
     if let Some(shortcut) = row.shortcuts.first() {
         button = button.shortcut_text(shortcut.to_string());
     }

@@ -49,12 +49,12 @@ impl Problems {
             .sense(Sense::click())
             .column(Column::exact(18.0))
             .column(Column::initial(64.0).resizable(true))
+            .column(Column::initial(110.0).resizable(true).clip(true))
             .column(Column::initial(430.0).resizable(true).clip(true))
-            .column(Column::remainder().clip(true))
-            .column(Column::initial(130.0));
+            .column(Column::remainder().clip(true));
         table
             .header(ROW_HEIGHT, |mut header| {
-                for title in ["", "Place", "Problem", "What to do", ""] {
+                for title in ["", "Place", "Object", "Problem", "What to do"] {
                     cell(&mut header, RichText::new(title).small().weak(), "");
                 }
             })
@@ -66,9 +66,12 @@ impl Problems {
                     );
                     row.col(|ui| drop(severity_icon(ui, problem.severity == Severity::Error)));
                     cell(&mut row, mono(place(problem)), &problem.path);
+                    object(&mut row, context, problem);
                     cell(&mut row, RichText::new(&problem.message), &problem.message);
-                    cell(&mut row, RichText::new(&problem.hint).weak(), &problem.hint);
-                    row.col(|ui| fix_button(ui, context, problem));
+                    row.col(|ui| {
+                        fix_button(ui, context, problem);
+                        ui.label(RichText::new(&problem.hint).weak()).on_hover_text(&problem.hint);
+                    });
                     click(&row.response(), context, problem);
                 });
             });
@@ -82,6 +85,17 @@ fn place(problem: &Problem) -> String {
         (None, ProblemSource::Simulation) => "start".to_owned(),
         (None, ProblemSource::Document) => "file".to_owned(),
     }
+}
+
+/// What a person calls the body or force; the tooltip has its label.
+fn object(row: &mut egui_extras::TableRow<'_, '_>, context: &AppContext<'_>, problem: &Problem) {
+    let found = context.shown.zip(problem.key);
+    let name = found.and_then(|(shown, key)| shown.name(key)).unwrap_or_default();
+    let label = found.and_then(|(shown, key)| {
+        let body = shown.body(key).map(|body| &body.label);
+        body.or_else(|| shown.force(key).map(|force| &force.label))
+    });
+    cell(row, RichText::new(name), label.map_or("", String::as_str));
 }
 
 fn fix_button(ui: &mut Ui, context: &AppContext<'_>, problem: &Problem) {

@@ -7,8 +7,9 @@ use crate::editor::{Action, COMMANDS, Command, Key, Shortcut};
 
 /// Sends the commands whose keys were pressed in this turn.
 ///
-/// A button that has the keyboard takes the space bar for itself; a view (`view_focused`) leaves it.
-pub fn collect(ctx: &egui::Context, outbox: &Outbox, view_focused: bool) {
+/// A button that has the keyboard takes the space bar for itself; a view (`view_focused`) leaves it. Escape
+/// out of a text field (`was_typing` before this turn) does nothing else.
+pub fn collect(ctx: &egui::Context, outbox: &Outbox, view_focused: bool, was_typing: bool) {
     let typing = ctx.text_edit_focused();
     let on_button = !view_focused && ctx.memory(|memory| memory.focused().is_some());
     let mut pasted = None;
@@ -20,6 +21,7 @@ pub fn collect(ctx: &egui::Context, outbox: &Outbox, view_focused: bool) {
                 Event::Cut if !typing => found.push(Command::Cut),
                 Event::Paste(text) if !typing => pasted = Some(text.clone()),
                 Event::Key { key: egui::Key::Space, .. } if on_button => {}
+                Event::Key { key: egui::Key::Escape, .. } if was_typing => {}
                 Event::Key { key, pressed: true, modifiers, repeat, .. } => {
                     let command = command_of(*key, *modifiers, typing);
                     found.extend(command.filter(|command| !repeat || repeats(*command)));

@@ -52,7 +52,7 @@ pub struct Transport {
 }
 
 impl Transport {
-    pub fn show(&mut self, ui: &mut Ui, context: &AppContext<'_>, layout: Layout) {
+    pub fn show(&mut self, ui: &mut Ui, context: &AppContext<'_>, layout: Layout, snapping: bool) {
         ui.horizontal_centered(|ui| {
             ui.spacing_mut().item_spacing.x = 3.0;
             for command in TRANSPORT {
@@ -68,6 +68,7 @@ impl Transport {
             state(ui, context);
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 view_buttons(ui, context, layout);
+                snap_button(ui, context, snapping);
                 ui.separator();
                 ADDITIONS.iter().rev().for_each(|command| command_button(ui, context, *command));
                 ui.separator();
@@ -140,6 +141,8 @@ fn time_speed(ui: &mut Ui, context: &AppContext<'_>) {
         speed: 0.01 * scene.time_speed,
         width: 48.0,
         help,
+        angle: false,
+        whole: false,
     };
     number(ui, context.outbox, &spec, Edit::TimeSpeed);
 }
@@ -170,6 +173,18 @@ fn state(ui: &mut Ui, context: &AppContext<'_>) {
         if ui.add(button).on_hover_text(help).clicked() {
             context.outbox.command(Command::Reset);
         }
+    }
+}
+
+/// Pressed in while dragged bodies snap.
+fn snap_button(ui: &mut Ui, context: &AppContext<'_>, snapping: bool) {
+    let Some(info) = editor::info(Command::ToggleSnapping) else { return };
+    let response = icon_button(ui, info.label, snapping, |painter, square, color| {
+        icons::paint(painter, square, Command::ToggleSnapping, color);
+    });
+    let state = if snapping { "on" } else { "off" };
+    if response.on_hover_text(format!("{}\nNow {state}.", info.tooltip(context.session))).clicked() {
+        context.outbox.command(Command::ToggleSnapping);
     }
 }
 

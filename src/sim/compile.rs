@@ -71,8 +71,8 @@ pub(super) enum Compiled {
 
 pub(super) fn compile_body(body: &Body, order: u32) -> Result<Compiled, Diagnostic> {
     check_numbers(body)?;
-    let identity =
-        Box::new(Identity { key: body.key, id: body.id, label: Arc::from(body.label.as_str()), order });
+    let (label, name) = (Arc::from(body.label.as_str()), Arc::from(body.display_name()));
+    let identity = Box::new(Identity { key: body.key, id: body.id, label, name, order });
     match (&body.motion, &body.shape) {
         (Motion::Dynamic { mass, velocity }, Shape::Sphere { radius }) => Ok(Compiled::Mover(
             MoverInfo {
@@ -177,7 +177,10 @@ pub(super) fn check_force(force: &Force) -> Result<(), Diagnostic> {
         severity: Severity::Error,
         position: None,
         path: String::new(),
-        message: format!("force {}: its numbers are out of range", force.label),
+        message: format!(
+            "force {}: its numbers are out of range",
+            force.name.as_deref().unwrap_or(&force.label)
+        ),
         hint: "give finite numbers, and a density of 0 or more".into(),
         key: Some(force.key),
     })
@@ -188,7 +191,7 @@ fn problem(body: &Body, what: &str, hint: &str) -> Diagnostic {
         severity: Severity::Error,
         position: None,
         path: String::new(),
-        message: format!("body {}: {what}", body.label),
+        message: format!("body {}: {what}", body.display_name()),
         hint: hint.into(),
         key: Some(body.key),
     }

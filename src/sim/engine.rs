@@ -176,21 +176,21 @@ fn leave_contact(model: &Model, state: &mut State, next: &Predicted) -> Result<(
 }
 
 fn fault(model: &Model, body: u32, time: f64, error: SegmentError) -> Fault {
-    let label = &model.movers[body as usize].identity.label;
+    let name = &model.movers[body as usize].identity.name;
     let message = match error {
         SegmentError::NotFinite => {
             format!(
-                "body {label}: position, velocity or force is not a finite number; look at its forces and start"
+                "body {name}: position, velocity or force is not a finite number; look at its forces and start"
             )
         }
         SegmentError::InCore => {
             format!(
-                "body {label}: its centre lies on a point attractor, where the force has no value; move one of them"
+                "body {name}: its centre lies on a point attractor, where the force has no value; move one of them"
             )
         }
         SegmentError::Stalled => {
             format!(
-                "body {label}: the integrator's step has shrunk to nothing; a force is singular or not smooth there"
+                "body {name}: the integrator's step has shrunk to nothing; a force is singular or not smooth there"
             )
         }
     };

@@ -28,6 +28,8 @@ pub(super) struct Identity {
     pub key: NodeKey,
     pub id: i64,
     pub label: Arc<str>,
+    /// What a person calls it: its name, else its label.
+    pub name: Arc<str>,
     /// Order among bodies of the same id.
     pub order: u32,
 }

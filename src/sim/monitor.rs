@@ -28,7 +28,7 @@ pub(super) fn start_warnings(model: &Model, state: &State) -> Vec<Diagnostic> {
             let (a, b) = (&model.movers[body as usize].identity, other.identity(model));
             warnings.push(warning(
                 a,
-                format!("bodies {} and {} overlap by {} m at the start", a.label, b.label, meters(depth)),
+                format!("bodies {} and {} overlap by {} m at the start", a.name, b.name, meters(depth)),
                 "move them apart; the run goes on, but they can part only by moving away from each other",
             ));
         }
@@ -46,7 +46,7 @@ pub(super) fn start_warnings(model: &Model, state: &State) -> Vec<Diagnostic> {
             let identity = &model.movers[body as usize].identity;
             warnings.push(warning(
                 identity,
-                format!("body {} starts outside the map", identity.label),
+                format!("body {} starts outside the map", identity.name),
                 "move it inside or enlarge the map; it is simulated all the same",
             ));
         }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use polyscene::editor::{
     Action, BODY_FIELDS, Command, Drag, FORCE_FIELDS, Gesture, Outcome, Place, ProblemSource, Request,
-    SAMPLES, SCENE_FIELDS, Shared, parse_number, shared,
+    SAMPLES, SCENE_FIELDS, Shared, parse_angle, parse_number, shared,
 };
 use polyscene::scene::{BodyChange, Diagnostic, Document, Edit, ForceChange, Severity, Shape};
 
@@ -275,12 +275,24 @@ fn a_fault_is_a_problem_and_a_message() {
 
 #[test]
 fn numbers_are_read_as_people_write_them() {
-    for (text, value) in
-        [("0.01", 0.01), ("0,01", 0.01), (" 1/60 ", 1.0 / 60.0), ("1e-3", 1e-3), ("-2", -2.0)]
-    {
+    for (text, value) in [
+        ("0.01", 0.01),
+        ("0,01", 0.01),
+        (" 1/60 ", 1.0 / 60.0),
+        ("1e-3", 1e-3),
+        ("-2", -2.0),
+        ("2*(3 - 1)", 4.0),
+    ] {
         assert_eq!(parse_number(text), Some(value), "{text}");
     }
-    for text in ["", "abc", "inf", "NaN", "1/0", "1.2.3", "1,2,3", "1/2/3", "0x10", "1 000"] {
+    let degrees = [("30deg", 30.0), ("-90°", -90.0), ("pi/6", 30.0), ("-π", -180.0)];
+    for (text, value) in degrees {
+        assert!((parse_angle(text).unwrap().to_degrees() - value).abs() < 1e-12, "{text}");
+    }
+    assert_eq!(parse_number(&"-(".repeat(100_000)), None);
+    for text in [
+        "", "abc", "inf", "NaN", "1/0", "1.2.3", "1.234,5", "1e400", "1e", "2*", "(1", "30°", "0x10", "1 000",
+    ] {
         assert_eq!(parse_number(text), None, "{text}");
     }
 }

@@ -39,6 +39,8 @@ mod gui_real;
 mod gui_support;
 // The window as a whole: selecting, stepping, events, overlays, problems, shortcuts, rest.
 mod gui_window;
+// What the window says back: refusals, Escape, snapping, markers, names.
+mod gui_words;
 // The rules of the source tree: layers, file sizes, function sizes.
 mod layering;
 // Runners: the Δt grid, going back, edits with their stamps, playing.

@@ -4,7 +4,7 @@ use egui::{Grid, RichText, Ui};
 
 use super::number::{Number, WIDTH, number};
 use super::section;
-use super::text::TextFields;
+use super::text::{TextFields, user_id};
 use crate::editor::{Action, BODY_FIELDS, Field, Shared, shared};
 use crate::gui::colors::tones;
 use crate::gui::context::{AppContext, Shown};
@@ -59,12 +59,12 @@ fn identity(ui: &mut Ui, context: &AppContext<'_>, shown: &Shown, bodies: &[&Bod
             ui.label("Name");
             texts.show(ui, outbox, "Name", body.name.as_deref().unwrap_or(""), &body.label, |text| {
                 let name = (!text.is_empty()).then(|| text.to_owned());
-                Some(Edit::Body { key, change: BodyChange::Name(name) })
+                Ok(Edit::Body { key, change: BodyChange::Name(name) })
             });
             ui.end_row();
             ui.label("User ID");
             texts.show(ui, outbox, "User ID", &body.id.to_string(), "", |text| {
-                Some(Edit::Body { key, change: BodyChange::Id(text.parse().ok()?) })
+                Ok(Edit::Body { key, change: BodyChange::Id(user_id(text)?) })
             });
             ui.end_row();
         }
@@ -74,7 +74,7 @@ fn identity(ui: &mut Ui, context: &AppContext<'_>, shown: &Shown, bodies: &[&Bod
         let hint = if same { "none" } else { "mixed" };
         texts.show(ui, outbox, "Material", value, hint, |text| {
             let material = (!text.is_empty()).then(|| text.to_owned());
-            Some(for_all(bodies, |_| BodyChange::Material(material.clone())))
+            Ok(for_all(bodies, |_| BodyChange::Material(material.clone())))
         });
         ui.end_row();
         ui.label("Colour");
@@ -130,18 +130,20 @@ fn rows(
         row_label(ui, if axis == 0 { field.label } else { "" }, axis_name);
         let name = field.accessible_name(axis);
         let speed = speed(field.unit, value, shown.scene.map.size.max_element());
-        let spec =
-            Number { name: &name, value, range: field.range, speed, width: WIDTH, help: help(field.label) };
+        let angle = field.unit == "rad";
+        let help = help(field.label);
+        let (range, width) = (field.range, WIDTH);
+        let spec = Number { name: &name, value, range, speed, width, help, angle, whole: false };
         number(ui, context.outbox, &spec, |value| field.edit(&shown.scene, keys, axis, value));
-        match (field.now.zip(now), field.unit) {
-            (Some((get, frame)), _) => {
+        match field.now.zip(now) {
+            Some((get, frame)) => {
                 let value = get(frame).to_array().get(axis).copied().unwrap_or(0.0);
                 drop(ui.label(mono(significant(value, 8))).on_hover_text(value.to_string()));
             }
-            (None, "rad") => degrees(ui, value),
-            (None, _) => drop(ui.label("")),
+            None => drop(ui.label("")),
         }
-        ui.label(RichText::new(field.unit).color(tones(ui).weak));
+        let unit = if angle { degrees(value) } else { field.unit.to_owned() };
+        ui.label(RichText::new(unit).color(tones(ui).weak));
         ui.end_row();
     }
 }
@@ -156,12 +158,12 @@ pub fn row_label(ui: &mut Ui, label: &str, axis: &str) {
     });
 }
 
-fn degrees(ui: &mut Ui, value: Shared) {
-    let text = match value {
-        Shared::Same(radians) => format!("{}°", significant(radians.to_degrees(), 6)),
-        _ => String::new(),
-    };
-    ui.label(mono(text).color(tones(ui).weak));
+/// The unit of an angle with what it is in degrees.
+fn degrees(value: Shared) -> String {
+    match value {
+        Shared::Same(radians) => format!("rad = {}°", significant(radians.to_degrees(), 4)),
+        _ => "rad".to_owned(),
+    }
 }
 
 /// Change per point of dragging: a thousandth of the map, a degree or so, a percent of the value.

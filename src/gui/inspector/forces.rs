@@ -5,7 +5,7 @@ use egui::{Grid, RichText, Ui};
 use super::bodies::{row_label, speed};
 use super::number::{Number, WIDTH, number};
 use super::section;
-use super::text::TextFields;
+use super::text::{TextFields, user_id};
 use crate::editor::{FORCE_FIELDS, Shared, shared};
 use crate::gui::colors::tones;
 use crate::gui::context::{AppContext, Shown};
@@ -34,6 +34,8 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>, shown: &Shown, keys: &[NodeKe
                     speed,
                     width: WIDTH,
                     help: help(field.label, &forces),
+                    angle: false,
+                    whole: false,
                 };
                 number(ui, context.outbox, &spec, |value| field.edit(&shown.scene, keys, axis, value));
                 ui.label(RichText::new(field.unit).color(tones(ui).weak));
@@ -53,12 +55,12 @@ fn identity(ui: &mut Ui, context: &AppContext<'_>, force: &Force, texts: &mut Te
         ui.label("Name");
         texts.show(ui, context.outbox, "Name", force.name.as_deref().unwrap_or(""), &force.label, |text| {
             let name = (!text.is_empty()).then(|| text.to_owned());
-            Some(Edit::Force { key, change: ForceChange::Name(name) })
+            Ok(Edit::Force { key, change: ForceChange::Name(name) })
         });
         ui.end_row();
         ui.label("User ID");
         texts.show(ui, context.outbox, "User ID", &force.id.to_string(), "", |text| {
-            Some(Edit::Force { key, change: ForceChange::Id(text.parse().ok()?) })
+            Ok(Edit::Force { key, change: ForceChange::Id(user_id(text)?) })
         });
         ui.end_row();
     });

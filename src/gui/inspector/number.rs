@@ -1,11 +1,13 @@
 //! A number to drag or type, with comma or point, as a fraction if need be; what it was is kept to the bit
 //! unless another is typed.
 
-use egui::{DragValue, Response, RichText, Ui, vec2};
+use std::cell::RefCell;
 use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 
-use crate::editor::{Action, Gesture, Shared, parse_number};
-use crate::gui::context::Outbox;
+use egui::{DragValue, Response, RichText, Ui, vec2};
+
+use crate::editor::{Action, Gesture, Shared, allows, limits, parse_angle, parse_number};
+use crate::gui::context::{Message, Outbox};
 use crate::gui::numbers::significant;
 use crate::gui::widgets::mono;
 use crate::scene::Edit;
@@ -26,6 +28,10 @@ pub struct Number<'a> {
     /// Points; [`WIDTH`] in lists.
     pub width: f32,
     pub help: &'a str,
+    /// An angle in radians, which can be typed in degrees too.
+    pub angle: bool,
+    /// A count, which has no fractions.
+    pub whole: bool,
 }
 
 /// Shows a number; a change is sent up as the edit that `edit` makes of it.
@@ -36,7 +42,10 @@ pub fn number(ui: &mut Ui, outbox: &Outbox, number: &Number<'_>, edit: impl FnOn
         Shared::Mixed { smallest, largest } => (smallest, Some((smallest, largest))),
     };
     let response = drag_value(ui, number, value, mixed.is_some());
-    let (response, changed) = (response.0, response.1);
+    let (response, changed, refused) = response;
+    if let Some(reason) = refused {
+        outbox.send(Message::Warn(reason));
+    }
     let gesture = Gesture(gesture_of(&response));
     if let Some(value) = changed {
         let gesture = response.dragged().then_some(gesture);
@@ -48,9 +57,19 @@ pub fn number(ui: &mut Ui, outbox: &Outbox, number: &Number<'_>, edit: impl FnOn
     tooltip(response, number, value, mixed);
 }
 
-/// The widget, and the value if it was changed.
-fn drag_value(ui: &mut Ui, number: &Number<'_>, value: f64, mixed: bool) -> (Response, Option<f64>) {
-    let is_typing = ui.memory(|memory| memory.has_focus(ui.next_auto_id()));
+/// The widget, the value if it was changed, and why what was typed is refused.
+fn drag_value(
+    ui: &mut Ui,
+    number: &Number<'_>,
+    value: f64,
+    mixed: bool,
+) -> (Response, Option<f64>, Option<String>) {
+    let id = ui.next_auto_id();
+    let is_typing = ui.memory(|memory| memory.has_focus(id));
+    // drags stop at the range, typed values outside are refused instead
+    let dragged = ui.ctx().is_being_dragged(id);
+    let range = if dragged { number.range } else { (f64::NEG_INFINITY, f64::INFINITY) };
+    let refused = RefCell::new(None);
     let shown = match (mixed, is_typing) {
         (true, _) => "mixed".to_owned(),
         (false, true) => value.to_string(),
@@ -60,17 +79,43 @@ fn drag_value(ui: &mut Ui, number: &Number<'_>, value: f64, mixed: bool) -> (Res
     let mut edited = value;
     let widget = DragValue::new(&mut edited)
         .speed(if mixed { 0.0 } else { number.speed })
-        .range(number.range.0..=number.range.1)
+        .range(range.0..=range.1)
         .clamp_existing_to_range(false)
         .update_while_editing(false)
         .clip_text(true)
         .min_size(vec2(number.width, 20.0))
         .custom_formatter(move |now, _| if now == value { shown.clone() } else { significant(now, DIGITS) })
-        .custom_parser(move |text| if text.trim() == known { Some(value) } else { parse_number(text) });
+        .custom_parser(|text| {
+            if text.trim() == known || text.trim() == value.to_string() {
+                return Some(value);
+            }
+            number.read(text).map_err(|reason| *refused.borrow_mut() = Some(reason)).ok()
+        });
     let response = ui.add(widget).accessible_name(number.name);
     // of values that differ, the one shown can be typed as well: then all become it
     let typed_same = mixed && response.changed();
-    (response, (edited != value || typed_same).then_some(edited))
+    (response, (edited != value || typed_same).then_some(edited), refused.into_inner())
+}
+
+impl Number<'_> {
+    /// What was typed, or why it can't be taken.
+    fn read(&self, text: &str) -> Result<f64, String> {
+        let (text, name) = (text.trim(), self.name.to_lowercase());
+        if text.is_empty() {
+            return Err(format!("Nothing was typed: the {name} stays as it was"));
+        }
+        let value = if self.angle { parse_angle(text) } else { parse_number(text) };
+        let tries = if self.angle { "0.5, pi/6 or 30°" } else { "0.5, 1/60 or 2*3" };
+        let value = value.ok_or_else(|| format!("“{text}” is no number that can be used: try {tries}"))?;
+        if !allows(self.range, value) {
+            let limits = limits(self.range).unwrap_or_default();
+            return Err(format!("{text} is out of range: the {name} {limits}"));
+        }
+        if self.whole && value.fract() != 0.0 {
+            return Err(format!("{text} is no whole number: the {name} can't be a fraction"));
+        }
+        Ok(value)
+    }
 }
 
 fn gesture_of(response: &Response) -> u64 {
@@ -94,12 +139,9 @@ fn tooltip(response: Response, number: &Number<'_>, value: f64, mixed: Option<(f
         if !number.help.is_empty() {
             ui.label(number.help);
         }
-        let range = match number.range {
-            (low, high) if low.is_finite() && high.is_finite() => format!("Range: {low} to {high}. "),
-            (low, _) if low > 0.0 => "Must be above 0. ".to_owned(),
-            (0.0, _) => "Must not be negative. ".to_owned(),
-            _ => String::new(),
-        };
-        ui.label(RichText::new(format!("{range}Drag, or click and type: 0.5 or 0,5 or 1/60.")).weak());
+        let range = limits(number.range).map_or(String::new(), |limits| format!("It {limits}. "));
+        let angles = if number.angle { " or pi/6 or 30°" } else { "" };
+        let text = format!("{range}Drag, or click and type: 0.5 or 0,5 or 1/60 or 2*3{angles}.");
+        ui.label(RichText::new(text).weak());
     });
 }

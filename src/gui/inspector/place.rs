@@ -61,6 +61,7 @@ fn fields(
                 } else {
                     speed(field.unit, value, scene.map.size.max_element())
                 };
+                let whole = field.label == "Tiles";
                 let spec = Number {
                     name: &name,
                     value,
@@ -68,6 +69,8 @@ fn fields(
                     speed,
                     width: WIDTH,
                     help: help(field.label),
+                    angle: false,
+                    whole,
                 };
                 number(ui, context.outbox, &spec, |value| {
                     field.change(scene, axis, value).unwrap_or(Edit::All(Vec::new()))
@@ -129,6 +132,8 @@ fn param_row(ui: &mut Ui, context: &AppContext<'_>, scene: &Scene, param: &Param
         speed,
         width: WIDTH,
         help: &help,
+        angle: false,
+        whole: is_whole(param),
     };
     number(ui, context.outbox, &spec, |value| with(param, scene, value));
     ui.label(RichText::new(param.unit).color(tones(ui).weak));
@@ -141,6 +146,13 @@ fn param_row(ui: &mut Ui, context: &AppContext<'_>, scene: &Scene, param: &Param
         }
     }
     ui.end_row();
+}
+
+/// Whether a setting is a count: it then keeps no fraction.
+fn is_whole(param: &ParamInfo) -> bool {
+    let mut params = SimParams::default();
+    (param.set)(&mut params, 1.5);
+    (param.get)(&params) != 1.5
 }
 
 fn with(param: &ParamInfo, scene: &Scene, value: f64) -> Edit {

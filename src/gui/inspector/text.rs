@@ -3,7 +3,7 @@
 use egui::{TextEdit, Ui};
 
 use crate::editor::Action;
-use crate::gui::context::Outbox;
+use crate::gui::context::{Message, Outbox};
 use crate::scene::Edit;
 
 /// The text being typed, and into which field.
@@ -13,7 +13,8 @@ pub struct TextFields {
 }
 
 impl TextFields {
-    /// `value` is what the field holds now; `hint` stands in an empty field.
+    /// `value` is what the field holds now; `hint` stands in an empty field; `edit` may say why a text is
+    /// refused.
     pub fn show(
         &mut self,
         ui: &mut Ui,
@@ -21,7 +22,7 @@ impl TextFields {
         name: &str,
         value: &str,
         hint: &str,
-        edit: impl FnOnce(&str) -> Option<Edit>,
+        edit: impl FnOnce(&str) -> Result<Edit, String>,
     ) {
         let id = ui.make_persistent_id(("text field", name));
         let mut text = match &self.typing {
@@ -36,12 +37,17 @@ impl TextFields {
             self.typing = None;
             let cancelled = ui.input(|input| input.key_pressed(egui::Key::Escape));
             let text = text.trim();
-            if !cancelled
-                && text != value
-                && let Some(edit) = edit(text)
-            {
-                outbox.act(Action::Edit { edit, gesture: None });
+            if !cancelled && text != value {
+                match edit(text) {
+                    Ok(edit) => outbox.act(Action::Edit { edit, gesture: None }),
+                    Err(reason) => outbox.send(Message::Warn(reason)),
+                }
             }
         }
     }
+}
+
+/// Reads a typed UserID, or says why it is none.
+pub fn user_id(text: &str) -> Result<i64, String> {
+    text.parse().map_err(|_| format!("“{text}” is no UserID: it must be a whole number, such as 17"))
 }

@@ -11,7 +11,7 @@ use egui::{Rect, Ui, vec2};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::context::{AppContext, Shown};
+use super::context::{AppContext, Message, Shown};
 use crate::editor::Command;
 use crate::record::{EventRow, Frame};
 use crate::scene::{Motion, NodeKey};
@@ -205,7 +205,15 @@ impl Views {
             Command::ShowOneView => self.set_layout(Layout::One),
             Command::ShowTwoViews => self.set_layout(Layout::Two),
             Command::ShowFourViews => self.set_layout(Layout::Four),
-            Command::ToggleSnapping => self.snapping = !self.snapping,
+            Command::ToggleSnapping => {
+                self.snapping = !self.snapping;
+                let text = if self.snapping {
+                    "Snapping is on: dragged bodies stop at round steps (G)"
+                } else {
+                    "Snapping is off: bodies are dragged freely (G)"
+                };
+                context.outbox.send(Message::Tell(text.to_owned()));
+            }
             Command::ToggleOverlay(index) => {
                 if let Some(overlay) = OVERLAYS.get(index) {
                     self.panes[self.active].overlays.toggle(overlay.id);

@@ -137,7 +137,8 @@ mod tests {
     }
 
     fn fixture(position: DVec3, shape: FixtureShape) -> Fixture {
-        let identity = Box::new(Identity { key: NodeKey(0), id: 0, label: Arc::from("0"), order: 0 });
+        let (label, name) = (Arc::from("0"), Arc::from("0"));
+        let identity = Box::new(Identity { key: NodeKey(0), id: 0, label, name, order: 0 });
         Fixture { identity, bounce: 1.0, position, shape, present: true }
     }
 
