@@ -16,7 +16,10 @@ use polyscene::sim::Simulation;
 
 fn main() {
     thesis_scene();
-    among_statics();
+    // In a cage the balls meet the same surroundings whatever N is: only the size of the tables differs.
+    among_statics("in a cage of 4 m", true);
+    // Roaming, they come to places that the processor's cache does not hold.
+    among_statics("roaming", false);
     gases();
 }
 
@@ -35,15 +38,15 @@ fn thesis_scene() {
 }
 
 /// Ten balls fly among N static spheres, one in each tile: the step must not cost more for more of them.
-fn among_statics() {
-    println!("\n10 moving spheres among N static ones, steps of 0.1 s");
+fn among_statics(where_to: &str, caged: bool) {
+    println!("\n10 moving spheres among N static ones, {where_to}, steps of 0.1 s");
     println!("{:>8} {:>12} {:>12} {:>14} {:>8}", "N", "compile ms", "first us", "median step us", "ratio");
     let counts = [100_u32, 1000, 10_000, 100_000];
     // The sizes take turns, so that a machine that slows down slows all of them.
     let mut rounds: Vec<Vec<f64>> = vec![Vec::new(); counts.len()];
     for round in 0..5 {
         for (index, count) in counts.into_iter().enumerate() {
-            let scene = lorentz_gas(count);
+            let scene = lorentz_gas(count, caged);
             let start = Instant::now();
             let mut simulation = Simulation::new(&scene).expect("it compiles");
             let compile = start.elapsed().as_secs_f64();
@@ -110,11 +113,13 @@ fn median(values: &mut [f64]) -> f64 {
     values[values.len() / 2]
 }
 
-/// Static spheres of r = 0.3 m on a 1 m lattice, one to a tile, in a box with walls; ten balls near its middle.
-fn lorentz_gas(count: u32) -> Scene {
+/// Static spheres of r = 0.3 m on a 1 m lattice, one to a tile, in a box with walls; ten balls near its
+/// middle, shut in there or not.
+fn lorentz_gas(count: u32, caged: bool) -> Scene {
     let side = (1..).find(|side: &u32| side * side * side >= count).unwrap_or(1);
     let size = f64::from(side);
-    let mut bodies = walls(size);
+    let middle = DVec3::splat((size / 2.0).floor());
+    let mut bodies = if caged { walls(middle - 2.0, 4.0) } else { walls(DVec3::ZERO, size) };
     for index in 0..count {
         let [x, y, z] = [index % side, index / side % side, index / (side * side)].map(f64::from);
         let position = dvec3(x, y, z) + 0.5;
@@ -123,7 +128,6 @@ fn lorentz_gas(count: u32) -> Scene {
     let mut random = Random(42);
     for index in 0..10 {
         // Lattice corners have room for a ball.
-        let middle = dvec3(0.0, 0.0, 0.0) + (size / 2.0).floor();
         let corner =
             middle + dvec3(f64::from(index % 3) - 1.0, f64::from(index / 3 % 3) - 1.0, f64::from(index / 9));
         let velocity = 5.0 * random.direction();
@@ -138,7 +142,7 @@ fn gas(count: u32, packing: f64) -> Scene {
     let side = (1..).find(|side: &u32| side * side * side >= count).unwrap_or(1);
     let volume = packing * size * size * size / f64::from(count);
     let radius = libm::cbrt(0.75 * volume / std::f64::consts::PI);
-    let mut bodies = walls(size);
+    let mut bodies = walls(DVec3::ZERO, size);
     let mut random = Random(7);
     for index in 0..count {
         let cell = [index % side, index / side % side, index / (side * side)].map(|i| f64::from(i) + 0.5);
@@ -177,7 +181,7 @@ fn body(id: i64, position: DVec3, motion: Motion, radius: f64) -> Body {
     }
 }
 
-fn walls(size: f64) -> Vec<Body> {
+fn walls(corner: DVec3, size: f64) -> Vec<Body> {
     let (half, right_angle) = (0.5 * size, std::f64::consts::FRAC_PI_2);
     let places = [
         (dvec3(0.0, half, half), dvec3(0.0, right_angle, 0.0)),
@@ -192,7 +196,7 @@ fn walls(size: f64) -> Vec<Body> {
         .map(|(id, (position, rotation))| Body {
             rotation,
             shape: Shape::Plane { half_x: half, half_y: half },
-            ..body(id, position, Motion::Static, 1.0)
+            ..body(id, corner + position, Motion::Static, 1.0)
         })
         .collect()
 }
