@@ -79,11 +79,7 @@ fn escape_leaves_the_field_and_then_the_selection() {
         window.harness.run();
         window.key(Key::Escape);
         assert_eq!(window.selected().len(), 1, "{name}");
-        eprintln!(
-            "UNDO {name} {:?} {:?}",
-            window.harness.state().session().undo_label(),
-            window.body("5853")
-        );
+        assert_eq!(window.harness.state().session().undo_label(), None, "{name} was changed");
     }
     window.key(Key::Escape);
     assert!(window.selected().is_empty());

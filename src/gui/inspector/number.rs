@@ -4,7 +4,7 @@
 use std::cell::RefCell;
 use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 
-use egui::{DragValue, Response, RichText, Ui, vec2};
+use egui::{DragValue, Id, Key, Response, RichText, Ui, vec2};
 
 use crate::editor::{Action, Gesture, Shared, allows, limits, parse_angle, parse_number};
 use crate::gui::context::{Message, Outbox};
@@ -66,6 +66,7 @@ fn drag_value(
 ) -> (Response, Option<f64>, Option<String>) {
     let id = ui.next_auto_id();
     let is_typing = ui.memory(|memory| memory.has_focus(id));
+    let is_discarded = is_discarded(ui, id, is_typing);
     // drags stop at the range, typed values outside are refused instead
     let dragged = ui.ctx().is_being_dragged(id);
     let range = if dragged { number.range } else { (f64::NEG_INFINITY, f64::INFINITY) };
@@ -86,7 +87,7 @@ fn drag_value(
         .min_size(vec2(number.width, 20.0))
         .custom_formatter(move |now, _| if now == value { shown.clone() } else { significant(now, DIGITS) })
         .custom_parser(|text| {
-            if text.trim() == known || text.trim() == value.to_string() {
+            if is_discarded || text.trim() == known || text.trim() == value.to_string() {
                 return Some(value);
             }
             number.read(text).map_err(|reason| *refused.borrow_mut() = Some(reason)).ok()
@@ -95,6 +96,19 @@ fn drag_value(
     // of values that differ, the one shown can be typed as well: then all become it
     let typed_same = mixed && response.changed();
     (response, (edited != value || typed_same).then_some(edited), refused.into_inner())
+}
+
+/// Whether typing was left with Escape. egui reads the text once more after the field has lost its focus,
+/// in a pass that no longer sees the key, so it is remembered until somebody types here again.
+fn is_discarded(ui: &Ui, id: Id, is_typing: bool) -> bool {
+    let memory_id = id.with("discarded");
+    let was_typing = ui.memory(|memory| memory.had_focus_last_frame(id));
+    if was_typing && !is_typing && ui.input(|input| input.key_pressed(Key::Escape)) {
+        ui.data_mut(|data| data.insert_temp(memory_id, true));
+    } else if is_typing {
+        ui.data_mut(|data| data.remove_temp::<bool>(memory_id));
+    }
+    ui.data(|data| data.get_temp(memory_id).unwrap_or(false))
 }
 
 impl Number<'_> {
