@@ -11,6 +11,7 @@ pub mod record;
 pub mod render;
 pub mod scene;
 pub mod sim;
+pub mod study;
 pub mod view;
 
 /// The examples of the README, as tests.

@@ -17,10 +17,11 @@ const LAYERS: [(&str, &[&str]); 9] = [
 ];
 
 /// What a layer must not name, because it knows nothing of it.
-const STRANGERS: [(&str, &[&str]); 7] = [
+const STRANGERS: [(&str, &[&str]); 8] = [
     ("scene", &["std::time", "egui", "glow", "three_d", "clap"]),
     ("sim", &["std::time", "std::fs", "egui", "glow", "three_d", "clap"]),
     ("record", &["egui", "glow", "three_d", "clap"]),
+    ("study", &["egui", "glow", "three_d", "clap"]),
     ("view", &["egui", "glow", "three_d", "clap"]),
     ("render", &["egui", "clap"]),
     ("editor", &["egui", "glow", "three_d", "clap"]),

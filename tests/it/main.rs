@@ -45,8 +45,6 @@ mod gui_words;
 mod layering;
 // Runners: the Δt grid, going back, edits with their stamps, playing.
 mod record_runner;
-// The naive simulator that the core is compared with, and its own checks.
-mod reference;
 // Pictures drawn in software without a window: silhouettes against their areas, depth order, caching.
 mod render_pictures;
 // The verb `render` through the real program: pictures of every scene, and ways in which it ends badly.
@@ -85,6 +83,8 @@ mod sim_random;
 mod sim_roots;
 // The thesis's own scene against the reference, and its invariants over a minute.
 mod sim_thesis;
+// The reference against closed forms and itself, and where it says that it can't be trusted.
+mod study_reference;
 // Cameras: rays against projections, framing, zoom to the cursor, the six axis views.
 mod view_camera;
 // Dragging and snapping, round lengths and short numbers, trails.

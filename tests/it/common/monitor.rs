@@ -4,7 +4,7 @@ use glam::DVec3;
 use polyscene::scene::{Scene, Shape};
 use polyscene::sim::Simulation;
 
-use crate::reference::geometry::{Surface, sphere_gap};
+use polyscene::study::reference::geometry::{Surface, sphere_gap};
 
 /// The bodies of a scene that does not change while it runs.
 pub struct Monitor {
@@ -24,7 +24,9 @@ impl Monitor {
         let statics = bodies.iter().filter(|body| !body.is_dynamic());
         Self {
             radii: radii.collect(),
-            statics: statics.map(|body| (body.label.clone(), Surface::of(body))).collect(),
+            statics: statics
+                .map(|body| (body.label.clone(), Surface::of(body).expect("a known shape")))
+                .collect(),
         }
     }
 

@@ -1,7 +1,7 @@
 //! Distances between surfaces, from the closest point.
 
+use crate::scene::{Body, Motion, Shape};
 use glam::{DMat3, DVec3, dvec3};
-use polyscene::scene::{Body, Motion, Shape};
 
 /// A surface a sphere can meet.
 #[derive(Clone, Debug)]
@@ -20,8 +20,9 @@ pub struct Gap {
 }
 
 impl Surface {
-    pub fn of(body: &Body) -> Self {
-        match body.shape {
+    /// The surface of a body; `None` for a shape that the reference does not know.
+    pub fn of(body: &Body) -> Option<Self> {
+        Some(match body.shape {
             Shape::Sphere { radius } => Self::Sphere { centre: body.position, radius },
             Shape::Plane { half_x, half_y } => Self::Plate {
                 centre: body.position,
@@ -29,8 +30,8 @@ impl Surface {
                 half_x,
                 half_y,
             },
-            ref other @ Shape::Unbuilt { .. } => panic!("the reference knows no {other:?}"),
-        }
+            Shape::Unbuilt { .. } => return None,
+        })
     }
 
     /// The gap to a sphere.
@@ -71,7 +72,8 @@ pub fn dynamic_radius(body: &Body) -> Option<f64> {
 
 /// R = Rx(α)·Ry(β)·Rz(γ), multiplied out.
 fn euler_matrix(angles: DVec3) -> DMat3 {
-    let ((sa, ca), (sb, cb), (sc, cc)) = (angles.x.sin_cos(), angles.y.sin_cos(), angles.z.sin_cos());
+    let ((sa, ca), (sb, cb), (sc, cc)) =
+        (libm::sincos(angles.x), libm::sincos(angles.y), libm::sincos(angles.z));
     DMat3::from_cols(
         dvec3(cb * cc, ca * sc + sa * sb * cc, sa * sc - ca * sb * cc),
         dvec3(-cb * sc, ca * cc - sa * sb * sc, sa * cc + ca * sb * sc),

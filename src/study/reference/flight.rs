@@ -1,15 +1,22 @@
 //! Motion between impacts: Gragg's modified midpoint rule, extrapolated until the digits stop changing.
 
+use crate::scene::{Force, ForceKind};
 use glam::DVec3;
-use polyscene::scene::{Force, ForceKind};
 
 /// One moving sphere. Position and velocity carry the rounding of their own sums along.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Ball {
+    /// UserID.
     pub id: i64,
+    /// Index in the scene's bodies.
+    pub body: usize,
+    /// Centre, m.
     pub position: Sum,
+    /// m/s.
     pub velocity: Sum,
+    /// m.
     pub radius: f64,
+    /// kg.
     pub mass: f64,
     pub bounce: f64,
 }
@@ -22,6 +29,7 @@ pub struct Sum {
 }
 
 impl Sum {
+    /// A sum of one term.
     pub fn new(value: DVec3) -> Self {
         Self { value, rest: DVec3::ZERO }
     }
@@ -38,50 +46,56 @@ impl Sum {
 
 /// Rows of the extrapolation table before a step is halved.
 const ROWS: usize = 9;
-/// Change of the last two columns over the size of the step's own change.
-const TOLERANCE: f64 = 1e-14;
 /// Halvings before the result is taken as it is.
 const DEPTH: u32 = 40;
 
 impl Ball {
-    /// The ball `duration` later, if it meets nothing.
-    pub fn flown(&self, forces: &[Force], duration: f64) -> Self {
-        self.flown_at_depth(forces, duration, 0)
+    /// The ball `duration` later, if it meets nothing; `tolerance` as in the settings.
+    pub(super) fn flown(&self, forces: &[Force], duration: f64, tolerance: f64) -> Self {
+        self.flown_at_depth(forces, duration, tolerance, 0)
     }
 
-    fn flown_at_depth(&self, forces: &[Force], duration: f64, depth: u32) -> Self {
-        if let Some([dx, dv]) = self.extrapolated(forces, duration, depth == DEPTH) {
+    fn flown_at_depth(&self, forces: &[Force], duration: f64, tolerance: f64, depth: u32) -> Self {
+        if let Some([dx, dv]) = self.extrapolated(forces, duration, tolerance, depth == DEPTH) {
             let (position, velocity) = (self.position.plus(dx), self.velocity.plus(dv));
-            return Self { position, velocity, ..self.clone() };
+            return Self { position, velocity, ..*self };
         }
-        let half = self.flown_at_depth(forces, duration / 2.0, depth + 1);
-        half.flown_at_depth(forces, duration / 2.0, depth + 1)
+        let half = self.flown_at_depth(forces, duration / 2.0, tolerance, depth + 1);
+        half.flown_at_depth(forces, duration / 2.0, tolerance, depth + 1)
     }
 
     /// Changes of position and velocity in one step, extrapolated to substeps of no length.
-    fn extrapolated(&self, forces: &[Force], duration: f64, at_any_rate: bool) -> Option<[DVec3; 2]> {
-        let mut row: Vec<[DVec3; 2]> = Vec::new();
+    fn extrapolated(
+        &self,
+        forces: &[Force],
+        duration: f64,
+        tolerance: f64,
+        at_any_rate: bool,
+    ) -> Option<[DVec3; 2]> {
+        let mut row = [[DVec3::ZERO; 2]; ROWS];
         for j in 0..ROWS {
             let substeps = 2 * (j + 1);
-            let mut next = vec![self.midpoint(forces, duration, substeps)];
+            let mut next = [[DVec3::ZERO; 2]; ROWS];
+            next[0] = self.midpoint(forces, duration, substeps);
             for k in 1..=j {
                 // T(j,k) = T(j,k-1) + (T(j,k-1) − T(j−1,k-1)) / ((n_j/n_(j−k))² − 1)
                 let ratio = substeps as f64 / (2 * (j - k + 1)) as f64;
                 let (new, old) = (next[k - 1], row[k - 1]);
-                next.push([0, 1].map(|i| new[i] + (new[i] - old[i]) / (ratio * ratio - 1.0)));
+                next[k] = [0, 1].map(|i| new[i] + (new[i] - old[i]) / (ratio * ratio - 1.0));
             }
-            if j > 0 && self.converged(next[j], next[j - 1], duration) {
+            if j > 0 && self.converged(next[j], next[j - 1], duration, tolerance) {
                 return Some(next[j]);
             }
             row = next;
         }
-        at_any_rate.then(|| row[ROWS - 1])
+        // A number that is no longer finite converges nowhere.
+        (at_any_rate || !row[ROWS - 1][1].is_finite()).then_some(row[ROWS - 1])
     }
 
-    fn converged(&self, new: [DVec3; 2], old: [DVec3; 2], duration: f64) -> bool {
+    fn converged(&self, new: [DVec3; 2], old: [DVec3; 2], duration: f64, tolerance: f64) -> bool {
         let speed = self.velocity.value.length() + new[1].length();
         let small = [speed * duration, 1e-3 * self.velocity.value.length() + new[1].length()];
-        (0..2).all(|i| (new[i] - old[i]).length() <= TOLERANCE * small[i])
+        (0..2).all(|i| (new[i] - old[i]).length() <= tolerance * small[i])
     }
 
     fn midpoint(&self, forces: &[Force], duration: f64, substeps: usize) -> [DVec3; 2] {
@@ -120,12 +134,13 @@ impl Ball {
         sum
     }
 
-    pub fn acceleration_now(&self, forces: &[Force]) -> DVec3 {
+    /// Acceleration by the forces at the present place, m/s².
+    pub(super) fn acceleration_now(&self, forces: &[Force]) -> DVec3 {
         self.acceleration(forces, DVec3::ZERO, DVec3::ZERO)
     }
 
     /// Takes an impulse, N·s.
-    pub fn push(&mut self, impulse: DVec3) {
+    pub(super) fn push(&mut self, impulse: DVec3) {
         self.velocity = self.velocity.plus(impulse / self.mass);
     }
 

@@ -1,0 +1,3 @@
+//! How accurate a simulation is and what that costs: references, residuals, work-precision runs.
+
+pub mod reference;

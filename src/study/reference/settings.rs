@@ -1,0 +1,45 @@
+//! How the reference works, and where it has to give up.
+
+/// How the reference works. Two runs with different settings show how far it can be trusted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Longest way of a body in one step, over its radius. Pairs are looked at four times on that way.
+    pub stride: f64,
+    /// Change of the last two columns of the extrapolation over the size of the step's own change.
+    pub tolerance: f64,
+    /// Impacts of the same instant are taken in the order of the file, or in the opposite one. Where that
+    /// changes what follows, the scene asks for a rule that the reference does not know.
+    pub last_first: bool,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { stride: 0.2, tolerance: 1e-14, last_first: false }
+    }
+}
+
+impl Settings {
+    /// Another way to the same result, to compare with: what differs is the reference's own error.
+    pub fn check() -> Self {
+        Self { stride: 0.13, tolerance: 1e-13, last_first: true }
+    }
+}
+
+/// Why the reference can't go on. What it has found until then stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum End {
+    /// Bounces are about to end in rest or in a slide along the surface.
+    #[error("two bodies stay in contact")]
+    LastingContact,
+    /// A force or a speed became infinite.
+    #[error("a number is no longer finite")]
+    NotFinite,
+}
+
+/// A scene that the reference can't simulate.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the reference does not know {what} (body {label})")]
+pub struct Unsupported {
+    pub label: String,
+    pub what: String,
+}

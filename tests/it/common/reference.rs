@@ -1,0 +1,12 @@
+//! The naive simulator on a scene that it knows.
+
+use polyscene::scene::Scene;
+use polyscene::study::reference::{Reference, Settings};
+
+pub fn reference(scene: &Scene) -> Reference {
+    with_settings(scene, Settings::default())
+}
+
+pub fn with_settings(scene: &Scene, settings: Settings) -> Reference {
+    Reference::new(scene, settings).expect("a scene that the reference knows")
+}
