@@ -187,12 +187,13 @@ fn dissipated(model: &Model, state: &State, body: u32, time: f64) -> f64 {
 }
 
 /// ∫ F dt of all forces on the body along its segment up to `time`, N·s. In free flight through a field the
-/// force law itself is integrated over the path, which checks the integrator; in contact, where the
+/// force law itself is integrated over the path, which checks the method; in contact, where the
 /// force of the surface is what the motion makes it, the change of momentum is taken.
 fn force_impulse(model: &Model, state: &State, body: u32, time: f64) -> DVec3 {
     let segment = &state.segments[body as usize];
     let mass = model.movers[body as usize].mass;
-    if segment.step == 0.0 {
+    // A parabola in a field is what a stepping method makes of it, not what the field does.
+    if segment.step == 0.0 && (model.is_ballistic() || time == segment.start) {
         return mass * (time - segment.start) * segment.a;
     }
     if segment.constrained {

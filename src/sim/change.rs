@@ -7,10 +7,11 @@ use glam::DVec3;
 
 use super::account::{book_segment, energies, momentum_value};
 use super::compile::{Compiled, check_force, compile_body};
-use super::engine::{begin, record};
+use super::engine::record;
 use super::force::{Force, ForceEntry, Law};
+use super::method::begin_all;
 use super::model::Model;
-use super::neighbours::{enter, predict_all};
+use super::neighbours::enter;
 use super::plan::plan_of;
 use super::segment::Segment;
 use super::state::State;
@@ -125,14 +126,7 @@ fn restart_all(
         group: 0,
     };
     record(state, event);
-    for body in super::account::present(model) {
-        let segment = state.segments[body as usize];
-        begin(model, state, body, time, segment.x, segment.v)?;
-    }
-    for body in super::account::present(model) {
-        predict_all(model, state, body, time);
-    }
-    Ok(())
+    begin_all(model, state)
 }
 
 fn place_of(model: &Model, state: &State, body: BodyRef) -> DVec3 {

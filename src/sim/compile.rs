@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
 
+use super::Method;
 use super::force::{ForceEntry, Law};
 use super::model::{Fixture, FixtureShape, Identity, Model, MoverInfo, Plate};
 use super::plan::plan_of;
@@ -18,7 +19,7 @@ pub(super) struct Start {
 }
 
 /// The model, and where its dynamic bodies start (same order).
-pub(super) fn compile(scene: &Scene) -> Result<(Model, Vec<Start>), Vec<Diagnostic>> {
+pub(super) fn compile(scene: &Scene, method: Method) -> Result<(Model, Vec<Start>), Vec<Diagnostic>> {
     let mut bodies: Vec<&Body> = scene.bodies.iter().collect();
     // Stable: bodies of the same id stay in file order.
     bodies.sort_by_key(|body| body.id);
@@ -51,6 +52,7 @@ pub(super) fn compile(scene: &Scene) -> Result<(Model, Vec<Start>), Vec<Diagnost
     let static_tiles = StaticTiles::new(&grid, &fixtures, scene.params.static_tile_limit as u64);
     let mut model = Model {
         params: scene.params,
+        method,
         movers,
         fixtures,
         forces,

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::account::present;
 use super::impact;
 use super::lasting::{keep_contacts, prune_contacts};
 use super::model::Model;
@@ -71,6 +72,19 @@ pub(super) fn begin(
 ) -> Result<(), Fault> {
     prune_contacts(model, state, body, time, x, v);
     begin_segment(model, state, body, time, x, v).map_err(|error| fault(model, body, time, error))
+}
+
+/// Begins segments for all bodies at `state.now` and predicts everything: any of them may be concerned.
+pub(super) fn begin_all(model: &Model, state: &mut State) -> Result<(), Fault> {
+    let time = state.now;
+    for body in present(model) {
+        let segment = state.segments[body as usize];
+        begin(model, state, body, time, segment.x, segment.v)?;
+    }
+    for body in present(model) {
+        predict_all(model, state, body, time);
+    }
+    Ok(())
 }
 
 /// The end of a segment: the next one goes on from there.

@@ -5,6 +5,7 @@
 mod edit;
 mod force;
 mod ledger;
+mod method;
 mod report;
 mod simulation;
 
@@ -23,9 +24,11 @@ mod motion;
 mod neighbours;
 mod predict;
 mod queue;
+mod restitution;
 mod roots;
 mod segment;
 mod state;
+mod stepping;
 mod tiles;
 
 // What looks on.
@@ -38,5 +41,7 @@ pub use candidates::CandidateSet;
 pub use edit::{EditRefused, SimEdit};
 pub use force::{Force, Subject};
 pub use ledger::{BodyRef, Event, EventKind};
+pub use method::Method;
 pub use report::{BodyState, ContactState, Counters, Energy, Momentum, Plan, Tiling};
 pub use simulation::{CompileError, Fault, Progress, Simulation, Snapshot};
+pub use stepping::StepLimits;

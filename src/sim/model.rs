@@ -4,15 +4,16 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::Plan;
 use super::force::ForceEntry;
 use super::tiles::{Grid, StaticTiles};
+use super::{Method, Plan};
 use crate::scene::{Diagnostic, NodeKey, SimParams};
 
 /// Immutable while it runs; an edit makes a changed copy.
 #[derive(Clone, Debug)]
 pub(super) struct Model {
     pub params: SimParams,
+    pub method: Method,
     pub movers: Vec<MoverInfo>,
     pub fixtures: Vec<Fixture>,
     pub forces: Vec<ForceEntry>,

@@ -1,8 +1,8 @@
 //! The plan: what a scene needs, so that nothing else is stored or computed.
 
-use super::Plan;
 use super::force::Law;
 use super::model::{FixtureShape, Model};
+use super::{Method, Plan};
 
 pub(super) fn plan_of(model: &Model) -> Plan {
     let movers: Vec<_> = model.movers.iter().filter(|mover| mover.present).collect();
@@ -33,13 +33,15 @@ pub(super) fn plan_of(model: &Model) -> Plan {
     }
     if !lossy {
         left_out.push("rest after bounces: every bounce keeps its energy");
+    } else if model.method != Method::Exact {
+        left_out.push("rest after bounces: this method lets bodies bounce for ever");
     }
     Plan {
         dynamic_bodies: movers.len(),
         static_bodies: fixtures.len(),
         motion: if ballistic { "ballistic" } else { "field" },
         pairs,
-        lasting_contact: lossy,
+        lasting_contact: lossy && model.method == Method::Exact,
         left_out,
     }
 }

@@ -7,16 +7,15 @@ use glam::DVec3;
 use super::account::{self, present, subject};
 use super::candidates::{CandidateSet, candidate_sets};
 use super::compile::compile;
-use super::engine;
 use super::force::Force;
 use super::lasting::contact_state;
 use super::model::{Identity, Model};
 use super::motion::applied_force;
-use super::neighbours::{enter, predict_all};
+use super::neighbours::enter;
 use super::state::State;
 use super::{
-    BodyRef, BodyState, Counters, EditRefused, Energy, Event, Momentum, Plan, SimEdit, Tiling, change, hash,
-    monitor,
+    BodyRef, BodyState, Counters, EditRefused, Energy, Event, Method, Momentum, Plan, SimEdit, Tiling,
+    change, hash, method, monitor,
 };
 use crate::scene::{Diagnostic, NodeKey, Scene};
 
@@ -53,7 +52,8 @@ pub struct Snapshot(Box<Simulation>);
 /// A running scene.
 ///
 /// Time goes on by [`Self::begin`], [`Self::next_event`] until there is none, [`Self::finish`]. In between,
-/// everything can be read at [`Self::time`]. The events and states do not depend on how time is divided.
+/// everything can be read at [`Self::time`]. In [`Method::Exact`] the events and states do not depend on how
+/// time is divided; in the others [`Self::begin`] says how long a Δt is.
 #[derive(Clone, Debug)]
 pub struct Simulation {
     model: Arc<Model>,
@@ -62,9 +62,14 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// Compiles a scene and goes to its start, t = 0.
+    /// Compiles a scene and goes to its start, t = 0. Steps by [`Method::Exact`].
     pub fn new(scene: &Scene) -> Result<Self, CompileError> {
-        let (mut model, starts) = compile(scene).map_err(|problems| CompileError { problems })?;
+        Self::with_method(scene, Method::Exact)
+    }
+
+    /// As [`Self::new`], stepping by another method.
+    pub fn with_method(scene: &Scene, method: Method) -> Result<Self, CompileError> {
+        let (mut model, starts) = compile(scene, method).map_err(|problems| CompileError { problems })?;
         let mut state = State::new(&starts);
         for body in 0..starts.len() as u32 {
             enter(&model, &mut state, body, 0.0);
@@ -85,8 +90,12 @@ impl Simulation {
     }
 
     /// Sets the time up to which [`Self::next_event`] goes. A time before now, or none at all, counts as now.
+    ///
+    /// For a method that steps by Δt this is the end of the next one. A Δt that is open keeps its end: one
+    /// can stop inside it and go on. An edit ends it.
     pub fn begin(&mut self, until: f64) {
         self.state.until = if until > self.state.now { until } else { self.state.now };
+        method::plan(&self.model, &mut self.state);
     }
 
     /// Goes to the next event not after the time given to [`Self::begin`] and reports it; `None` when
@@ -114,7 +123,7 @@ impl Simulation {
             if let Some(fault) = &self.fault {
                 return Err(fault.clone());
             }
-            match engine::advance(&self.model, &mut self.state) {
+            match method::advance(&self.model, &mut self.state) {
                 Ok(true) => {}
                 Ok(false) => {
                     self.state.now = self.state.until;
@@ -212,6 +221,10 @@ impl Simulation {
         self.state.counters
     }
 
+    pub fn method(&self) -> Method {
+        self.model.method
+    }
+
     pub fn plan(&self) -> &Plan {
         &self.model.plan
     }
@@ -292,12 +305,5 @@ impl Simulation {
 /// First segments and predictions of all bodies. The books are opened before anything can touch them.
 fn start(model: &Model, state: &mut State) -> Result<(), Fault> {
     account::open(model, state);
-    for body in 0..state.segments.len() as u32 {
-        let at_start = state.segments[body as usize];
-        engine::begin(model, state, body, 0.0, at_start.x, at_start.v)?;
-    }
-    for body in 0..state.segments.len() as u32 {
-        predict_all(model, state, body, 0.0);
-    }
-    Ok(())
+    method::begin_all(model, state)
 }

@@ -11,6 +11,7 @@ use super::model::Model;
 use super::predict::Mover;
 use super::queue::{Kind, Predicted, Queue};
 use super::segment::{Path, Segment, Series};
+use super::stepping::OpenStep;
 use super::tiles::{MovingTiles, TileRange};
 use super::{Counters, Event};
 
@@ -35,6 +36,8 @@ pub(super) struct State {
     pub cascades: Vec<Cascade>,
     pub moving: MovingTiles,
     pub queue: Queue,
+    /// The Δt that a method which steps by it is in.
+    pub step: Option<Box<OpenStep>>,
     /// Events made but not yet handed out.
     pub outbox: VecDeque<Event>,
     pub sequence: u64,
@@ -83,6 +86,7 @@ impl State {
             cascades: Vec::with_capacity(starts.len()),
             moving: MovingTiles::default(),
             queue: Queue::default(),
+            step: None,
             outbox: VecDeque::new(),
             sequence: 0,
             group: 0,

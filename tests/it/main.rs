@@ -77,6 +77,8 @@ mod sim_group;
 mod sim_impact;
 // Δt, tiles, file order, looking and snapshots change no bit.
 mod sim_invariance;
+// The methods that step by Δt: what they get right, and what they lose.
+mod sim_methods;
 // Random scenes against all pairs, the reference and conservation laws.
 mod sim_random;
 // Times of impact against bisection, at the rims of plates and spheres.

@@ -65,6 +65,7 @@ struct WorkReport {
     tile_crossings: u64,
     segments: u64,
     force_evaluations: u64,
+    given_up: u64,
     stale_events: u64,
 }
 
@@ -110,6 +111,7 @@ impl<'a> Summary<'a> {
                 tile_crossings: counters.tile_crossings,
                 segments: counters.segments,
                 force_evaluations: counters.force_evaluations,
+                given_up: counters.given_up,
                 stale_events: counters.stale_events,
             },
             plan: plan_report(sim.plan()),

@@ -1,0 +1,97 @@
+//! The search of the method `fixed`: overlaps of bodies that share a tile at the end of the step.
+
+use super::StepLimits;
+use super::overlap::{Hit, Partner, hit};
+use super::step::{collide, register};
+use crate::sim::Fault;
+use crate::sim::account::present;
+use crate::sim::model::Model;
+use crate::sim::state::State;
+
+/// The overlaps at the end of a step that are not resolved yet.
+#[derive(Clone, Debug)]
+pub(super) struct PairSearch {
+    hits: Vec<Hit>,
+    /// Collisions of each body in this step.
+    collisions: Vec<u32>,
+}
+
+impl PairSearch {
+    pub fn begin(model: &Model, state: &mut State, end: f64) -> Self {
+        for body in present(model) {
+            register(model, state, body, end);
+        }
+        let mut search = Self { hits: Vec::new(), collisions: vec![0; model.movers.len()] };
+        let start = state.now;
+        for body in present(model) {
+            search.look(model, state, body, start, end, |other| other > body);
+        }
+        search
+    }
+
+    pub fn earliest(&self) -> Option<Hit> {
+        self.hits.iter().copied().reduce(|a, b| if b.is_before(&a) { b } else { a })
+    }
+
+    /// Lets the pair bounce and looks anew for what its bodies meet in the rest of the step. A body at its
+    /// limit of collisions meets nothing more.
+    pub fn resolve(&mut self, model: &Model, state: &mut State, hit: &Hit, end: f64) -> Result<(), Fault> {
+        collide(model, state, hit, hit.bodies())?;
+        self.hits.retain(|other| !hit.bodies().any(|body| other.involves(body)));
+        for body in hit.bodies() {
+            register(model, state, body, end);
+            self.collisions[body as usize] += 1;
+            state.counters.given_up += u64::from(self.collisions[body as usize] == LIMIT);
+        }
+        let second = hit.bodies().nth(1);
+        for body in hit.bodies() {
+            // the pair itself is looked at once
+            let skip = second.filter(|second| *second == body).map(|_| hit.body);
+            self.look(model, state, body, hit.time, end, |other| Some(other) != skip);
+        }
+        Ok(())
+    }
+
+    /// Adds the overlaps of a body with those of its neighbours that are `wanted`.
+    fn look(
+        &mut self,
+        model: &Model,
+        state: &mut State,
+        body: u32,
+        from: f64,
+        end: f64,
+        wanted: impl Fn(u32) -> bool,
+    ) {
+        if self.collisions[body as usize] >= LIMIT {
+            return;
+        }
+        for partner in neighbours(model, state, body) {
+            let (a, b) = match partner {
+                Partner::Moving(other) => {
+                    if other == body || !wanted(other) || self.collisions[other as usize] >= LIMIT {
+                        continue;
+                    }
+                    (body.min(other), Partner::Moving(body.max(other)))
+                }
+                Partner::Fixed(_) => (body, partner),
+            };
+            self.hits.extend(hit(model, state, a, b, from, end));
+        }
+    }
+}
+
+const LIMIT: u32 = StepLimits::DEFAULT.collisions;
+
+/// What lies in a body's tiles, each once.
+fn neighbours(model: &Model, state: &State, body: u32) -> Vec<Partner> {
+    let mut found: Vec<Partner> = Vec::new();
+    for tile in state.registered[body as usize].tiles() {
+        let key = model.grid.key(tile);
+        found.extend(state.moving.bodies(key).iter().map(|other| Partner::Moving(*other)));
+        found.extend(model.static_tiles.bodies(key).iter().map(|other| Partner::Fixed(*other)));
+    }
+    found.extend(model.static_tiles.large().iter().map(|other| Partner::Fixed(*other)));
+    found.sort_unstable();
+    found.dedup();
+    found
+}

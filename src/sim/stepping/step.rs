@@ -1,0 +1,129 @@
+//! One Δt: trial steps, collisions in order of time, the end.
+
+use super::fixed::PairSearch;
+use super::overlap::Hit;
+use super::thesis::SetSearch;
+use super::{response, trial};
+use crate::sim::account::present;
+use crate::sim::model::Model;
+use crate::sim::state::State;
+use crate::sim::{Fault, Method};
+
+/// A Δt that is not over.
+#[derive(Clone, Debug)]
+pub(in crate::sim) struct OpenStep {
+    /// s.
+    end: f64,
+    search: Search,
+}
+
+/// The collisions left in a Δt.
+#[derive(Clone, Debug)]
+enum Search {
+    /// The trial steps are still to be made.
+    Planned,
+    Sets(SetSearch),
+    Pairs(PairSearch),
+}
+
+/// Opens a Δt from `state.now` to `state.until` unless one is open: that one keeps its end.
+pub(in crate::sim) fn plan(state: &mut State) {
+    if state.step.is_none() && state.until > state.now {
+        state.step = Some(Box::new(OpenStep { end: state.until, search: Search::Planned }));
+    }
+}
+
+/// The table of contents of a Δt; each call does one line of it. False when `state.until` is reached.
+pub(in crate::sim) fn advance(model: &Model, state: &mut State) -> Result<bool, Fault> {
+    let Some(mut step) = state.step.take() else { return Ok(false) };
+    if let Search::Planned = step.search {
+        step.search = match model.method {
+            Method::Fixed => Search::Pairs(PairSearch::begin(model, state, step.end)),
+            _ => Search::Sets(SetSearch::begin(model, state, step.end)),
+        };
+        state.step = Some(step);
+        return Ok(true);
+    }
+    match step.search.earliest() {
+        Some(hit) if hit.time <= state.until => {
+            state.reached = hit.time;
+            step.search.resolve(model, state, &hit, step.end)?;
+            state.step = Some(step);
+            Ok(true)
+        }
+        _ if state.until < step.end => {
+            state.step = Some(step);
+            Ok(false)
+        }
+        _ => {
+            close(model, state, step.end)?;
+            plan(state);
+            Ok(state.step.is_some())
+        }
+    }
+}
+
+impl Search {
+    fn earliest(&self) -> Option<Hit> {
+        match self {
+            Self::Planned => None,
+            Self::Sets(sets) => sets.earliest(),
+            Self::Pairs(pairs) => pairs.earliest(),
+        }
+    }
+
+    fn resolve(&mut self, model: &Model, state: &mut State, hit: &Hit, end: f64) -> Result<(), Fault> {
+        match self {
+            Self::Planned => Ok(()),
+            Self::Sets(sets) => sets.resolve(model, state, hit, end),
+            Self::Pairs(pairs) => pairs.resolve(model, state, hit, end),
+        }
+    }
+}
+
+/// Makes all motion up to the end of the Δt real.
+fn close(model: &Model, state: &mut State, end: f64) -> Result<(), Fault> {
+    for body in present(model) {
+        trial::move_to(model, state, body, end)?;
+        register(model, state, body, end);
+    }
+    (state.now, state.reached) = (end, end);
+    Ok(())
+}
+
+/// All bodies go on from where they are now. A Δt that was open ends here: the rest of it is one of its own.
+pub(in crate::sim) fn begin_all(model: &Model, state: &mut State) -> Result<(), Fault> {
+    state.step = None;
+    let time = state.now;
+    for body in present(model) {
+        let (x, v) = (state.position(body, time), state.velocity(body, time));
+        trial::begin(model, state, body, time, x, v)?;
+        register(model, state, body, time);
+    }
+    Ok(())
+}
+
+/// Moves a body to the tiles of its box at `time`.
+pub(super) fn register(model: &Model, state: &mut State, body: u32, time: f64) {
+    let (position, radius) = (state.position(body, time), model.movers[body as usize].radius);
+    let new = model.grid.range(position - radius, position + radius);
+    let old = state.registered[body as usize];
+    if new != old {
+        state.moving.change(&model.grid, old, new, body);
+        state.registered[body as usize] = new;
+        state.counters.tile_crossings += 1;
+    }
+}
+
+/// Moves the bodies of a hit to it and lets them bounce.
+pub(super) fn collide(
+    model: &Model,
+    state: &mut State,
+    hit: &Hit,
+    moved: impl Iterator<Item = u32>,
+) -> Result<(), Fault> {
+    for body in moved {
+        trial::move_to(model, state, body, hit.time)?;
+    }
+    response::respond(model, state, hit)
+}

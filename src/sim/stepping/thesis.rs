@@ -1,0 +1,117 @@
+//! The search of the method `thesis`: local collision sets through the tiles at the trial end.
+//!
+//! The sets are made once per Δt. A body that was deflected may leave the tiles of its set and meets
+//! nothing there; one that is past a thin body at the trial end never met it. Both are losses of the
+//! method and are kept.
+
+use super::StepLimits;
+use super::overlap::{Hit, Partner, hit};
+use super::step::{collide, register};
+use crate::sim::account::present;
+use crate::sim::candidates::{CandidateSet, candidate_sets};
+use crate::sim::model::Model;
+use crate::sim::state::State;
+use crate::sim::{BodyRef, Fault};
+
+/// All local sets of a Δt.
+#[derive(Clone, Debug)]
+pub(super) struct SetSearch {
+    sets: Vec<LocalSet>,
+}
+
+/// Bodies that could meet in this Δt, and those that do.
+#[derive(Clone, Debug)]
+struct LocalSet {
+    moving: Vec<u32>,
+    fixed: Vec<u32>,
+    hits: Vec<Hit>,
+    /// Collisions that may still be resolved.
+    left: u32,
+}
+
+impl SetSearch {
+    /// Registers all bodies where their trial step ends, and looks for overlaps there.
+    pub fn begin(model: &Model, state: &mut State, end: f64) -> Self {
+        for body in present(model) {
+            register(model, state, body, end);
+        }
+        let found = candidate_sets(
+            present(model),
+            |body| state.registered[body as usize].tiles().map(|tile| model.grid.key(tile)).collect(),
+            |key| (state.moving.bodies(key), model.static_tiles.bodies(key)),
+        );
+        let mut sets: Vec<LocalSet> = found.iter().map(|set| LocalSet::new(model, set)).collect();
+        let start = state.now;
+        for set in &mut sets {
+            set.look(model, state, start, end, None);
+        }
+        Self { sets }
+    }
+
+    pub fn earliest(&self) -> Option<Hit> {
+        self.sets.iter().filter_map(LocalSet::earliest).reduce(earlier)
+    }
+
+    pub fn resolve(&mut self, model: &Model, state: &mut State, hit: &Hit, end: f64) -> Result<(), Fault> {
+        let Some(set) = self.sets.iter_mut().find(|set| set.hits.contains(hit)) else { return Ok(()) };
+        set.resolve(model, state, hit, end)
+    }
+}
+
+fn earlier(a: Hit, b: Hit) -> Hit {
+    if b.is_before(&a) { b } else { a }
+}
+
+impl LocalSet {
+    fn new(model: &Model, set: &CandidateSet) -> Self {
+        let index = |body: &BodyRef| match *body {
+            BodyRef::Dynamic(index) | BodyRef::Static(index) => index,
+        };
+        let moving: Vec<u32> = set.dynamic.iter().map(index).collect();
+        let large = model.static_tiles.large().iter().copied();
+        let fixed = set.fixed.iter().map(index).chain(large).collect();
+        let left = StepLimits::DEFAULT.collisions.saturating_mul(moving.len() as u32);
+        Self { moving, fixed, hits: Vec::new(), left }
+    }
+
+    fn earliest(&self) -> Option<Hit> {
+        self.hits.iter().copied().reduce(earlier)
+    }
+
+    /// A single collision concerns its own bodies only. In a multi-collision the whole set is moved to the
+    /// earliest, and its trial steps are made anew for the rest of Δt.
+    fn resolve(&mut self, model: &Model, state: &mut State, hit: &Hit, end: f64) -> Result<(), Fault> {
+        let single = self.hits.len() == 1;
+        if single {
+            collide(model, state, hit, hit.bodies())?;
+        } else {
+            collide(model, state, hit, self.moving.iter().copied())?;
+        }
+        self.left -= 1;
+        self.look(model, state, hit.time, end, single.then_some(hit));
+        if self.left == 0 && !self.hits.is_empty() {
+            self.hits.clear();
+            state.counters.given_up += 1;
+        }
+        Ok(())
+    }
+
+    /// Looks for overlaps at the trial end: of all pairs, or of those with a body of `around`.
+    fn look(&mut self, model: &Model, state: &mut State, from: f64, end: f64, around: Option<&Hit>) {
+        let concerned = |body: u32| around.is_none_or(|around| around.involves(body));
+        self.hits.clear();
+        for (index, &body) in self.moving.iter().enumerate() {
+            for &other in &self.moving[index + 1..] {
+                if concerned(body) || concerned(other) {
+                    let (a, b) = (body.min(other), body.max(other));
+                    self.hits.extend(hit(model, state, a, Partner::Moving(b), from, end));
+                }
+            }
+            if concerned(body) {
+                for &other in &self.fixed {
+                    self.hits.extend(hit(model, state, body, Partner::Fixed(other), from, end));
+                }
+            }
+        }
+    }
+}
