@@ -41,7 +41,7 @@ pub use palette::{PaletteEntry, palette};
 pub use playback::Playback;
 pub use problems::{Problem, ProblemSource};
 pub use recovery::Recovered;
-pub use samples::{SAMPLES, Sample};
+pub use samples::{SAMPLES, Sample, SampleGroup};
 pub use selection::{Place, Selection};
 pub use session::Session;
 pub use settings::{Settings, Storage};

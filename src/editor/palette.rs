@@ -1,7 +1,7 @@
 //! Everything that can be done by name: the command table, samples, recent files and overlays.
 
 use super::catalog::COMMANDS;
-use super::{Command, SAMPLES, Session};
+use super::{Command, SAMPLES, SampleGroup, Session};
 use crate::view::OVERLAYS;
 
 /// One line of the command palette.
@@ -31,7 +31,8 @@ fn entries(session: &Session) -> impl Iterator<Item = PaletteEntry> {
         disabled: (row.enabled)(session).err(),
     });
     let samples = SAMPLES.iter().enumerate().map(|(index, sample)| {
-        entry(Command::OpenSample(index), format!("Sample: {}", sample.title), sample.shows.to_owned())
+        let kind = if sample.group == SampleGroup::HardCase { "Hard case" } else { "Sample" };
+        entry(Command::OpenSample(index), format!("{kind}: {}", sample.title), sample.shows.to_owned())
     });
     let recent = session.settings().recent.iter().enumerate().map(|(index, path)| {
         let name = path.file_name().unwrap_or_default().to_string_lossy();

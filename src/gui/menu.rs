@@ -3,7 +3,7 @@
 use egui::{Button, Ui};
 
 use super::context::AppContext;
-use crate::editor::{COMMANDS, Command, CommandInfo, Menu, SAMPLES};
+use crate::editor::{COMMANDS, Command, CommandInfo, Menu, SAMPLES, SampleGroup};
 use crate::view::OVERLAYS;
 
 /// Overlays of the active view and whether drags snap, for the marks in the View menu.
@@ -87,7 +87,13 @@ pub fn recent_files(ui: &mut Ui, context: &AppContext<'_>) {
 }
 
 fn samples(ui: &mut Ui, context: &AppContext<'_>) {
-    for (index, sample) in SAMPLES.iter().enumerate() {
+    samples_of(ui, context, SampleGroup::Introduction);
+    ui.separator();
+    ui.menu_button("Hard cases", |ui| samples_of(ui, context, SampleGroup::HardCase));
+}
+
+fn samples_of(ui: &mut Ui, context: &AppContext<'_>, group: SampleGroup) {
+    for (index, sample) in SAMPLES.iter().enumerate().filter(|(_, sample)| sample.group == group) {
         if ui.button(sample.title).on_hover_text(sample.shows).clicked() {
             context.outbox.command(Command::OpenSample(index));
             ui.close();

@@ -3,7 +3,7 @@
 use egui::{Align2, RichText, Ui};
 
 use super::context::AppContext;
-use crate::editor::{Command, SAMPLES, Session};
+use crate::editor::{Command, SAMPLES, SampleGroup, Session};
 
 /// Whether there is nothing to lose and nothing to see yet.
 pub fn is_wanted(session: &Session) -> bool {
@@ -48,7 +48,8 @@ pub fn show(ctx: &egui::Context, area: egui::Rect, context: &AppContext<'_>) -> 
 fn samples(ui: &mut Ui, context: &AppContext<'_>) {
     ui.label(RichText::new("Samples").strong());
     egui::Grid::new("start samples").num_columns(2).spacing([12.0, 3.0]).show(ui, |ui| {
-        for (index, sample) in SAMPLES.iter().enumerate() {
+        let introductions = SAMPLES.iter().enumerate();
+        for (index, sample) in introductions.filter(|(_, sample)| sample.group == SampleGroup::Introduction) {
             if ui.link(sample.title).clicked() {
                 context.outbox.command(Command::OpenSample(index));
             }
@@ -56,6 +57,7 @@ fn samples(ui: &mut Ui, context: &AppContext<'_>) {
             ui.end_row();
         }
     });
+    ui.label(RichText::new("The hard cases of numerics are under File, Samples, Hard cases.").weak());
     ui.add_space(8.0);
 }
 

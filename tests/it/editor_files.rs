@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::Duration;
 
-use polyscene::editor::{Action, Answer, Command, Outcome, Question, Request, SAMPLES};
+use polyscene::editor::{Action, Answer, Command, Outcome, Question, Request, SAMPLES, SampleGroup};
 use polyscene::scene::BodyChange;
 
 use super::editor_support::{Bench, BodyNumbers, SCENE};
@@ -257,15 +257,20 @@ fn settings_that_make_no_sense_are_the_defaults() {
 #[test]
 fn every_scene_of_the_folder_is_a_sample_and_opens_without_errors() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
-    let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    let mut names: Vec<String> = files
-        .filter(|path| path.extension().is_some_and(|extension| extension == "xml"))
-        .map(|path| path.file_stem().unwrap().to_string_lossy().into_owned())
-        .collect();
-    names.sort();
-    let mut samples: Vec<&str> = SAMPLES.iter().map(|sample| sample.id).collect();
-    samples.sort_unstable();
-    assert_eq!(samples, names);
+    for (folder, group) in
+        [(folder.clone(), SampleGroup::Introduction), (folder.join("hard"), SampleGroup::HardCase)]
+    {
+        let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+        let mut names: Vec<String> = files
+            .filter(|path| path.extension().is_some_and(|extension| extension == "xml"))
+            .map(|path| path.file_stem().unwrap().to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        let of_group = SAMPLES.iter().filter(|sample| sample.group == group);
+        let mut samples: Vec<&str> = of_group.map(|sample| sample.id).collect();
+        samples.sort_unstable();
+        assert_eq!(samples, names);
+    }
     for (index, sample) in SAMPLES.iter().enumerate() {
         let mut bench = Bench::new();
         bench.run(Command::OpenSample(index));

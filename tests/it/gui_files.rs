@@ -5,18 +5,31 @@ use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 
 use super::gui_support::{Window, sample_path};
-use polyscene::editor::SAMPLES;
+use polyscene::editor::{SAMPLES, SampleGroup};
 
 #[test]
 fn an_empty_window_offers_samples() {
     let mut window = Window::empty();
-    for sample in SAMPLES {
+    for sample in SAMPLES.iter().filter(|sample| sample.group == SampleGroup::Introduction) {
         let link = window.harness.query_by_role_and_label(Role::Link, sample.title);
         assert!(link.is_some(), "{}", sample.title);
     }
     window.click("Counting π");
     assert!(window.harness.state().session().title().contains("counting-pi"));
     assert!(!window.has("Empty scene"));
+}
+
+#[test]
+fn hard_cases_are_in_a_menu_of_their_own() {
+    let mut window = Window::thesis();
+    window.menu("File", "Samples");
+    window.click_role(Role::Button, "Hard cases");
+    for sample in SAMPLES.iter().filter(|sample| sample.group == SampleGroup::HardCase) {
+        assert!(window.has(sample.title), "{}", sample.title);
+    }
+    window.click("Billiard break");
+    assert_eq!(window.scene().bodies.len(), 20);
+    assert!(window.harness.state().session().title().contains("billiard-break"));
 }
 
 #[test]

@@ -22,8 +22,10 @@ fn complaint(output: &Output) -> String {
 fn every_scene_gives_a_picture_in_which_something_is_seen() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("scene.png");
-    let mut scenes: Vec<_> = std::fs::read_dir("scenes")
-        .unwrap()
+    let folders = ["scenes", "scenes/hard"].map(|folder| std::fs::read_dir(folder).unwrap());
+    let mut scenes: Vec<_> = folders
+        .into_iter()
+        .flatten()
         .map(|entry| entry.unwrap().path())
         .filter(|path| path.extension().is_some_and(|extension| extension == "xml"))
         .collect();
@@ -31,7 +33,7 @@ fn every_scene_gives_a_picture_in_which_something_is_seen() {
     assert!(scenes.len() >= 6);
     for scene in scenes {
         let scene = scene.to_str().unwrap();
-        let output = render(&[scene, "-o", out.to_str().unwrap(), "--at", "0.25", "--size", "480x320"]);
+        let output = render(&[scene, "-o", out.to_str().unwrap(), "--at", "0.1", "--size", "480x320"]);
         assert!(output.status.success(), "{scene}: {}", complaint(&output));
         let picture = image::open(&out).unwrap().to_rgba8();
         assert_eq!(picture.dimensions(), (480, 320), "{scene}");
