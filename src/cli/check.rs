@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{CliError, input, output};
+use crate::sim::Method;
 
 /// Print every problem of scene files
 ///
@@ -21,7 +22,7 @@ pub struct CheckArgs {
 pub(super) fn check(args: &CheckArgs) -> Result<(), CliError> {
     let (mut errors, mut warnings) = (0, 0);
     for file in &args.files {
-        let examined = input::open(file)?;
+        let examined = input::open(file, Method::Exact)?;
         for line in examined.lines(&input::display_name(file)) {
             output::print(format!("{line}\n").as_bytes())?;
         }

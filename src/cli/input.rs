@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::CliError;
 use crate::scene::{Diagnostic, Document};
-use crate::sim::Simulation;
+use crate::sim::{Method, Simulation};
 
 /// A scene file is at most 256 MiB; one byte more is enough for the reader to say so.
 const STDIN_LIMIT: u64 = (256 << 20) + 1;
@@ -29,10 +29,10 @@ impl Examined {
     }
 }
 
-/// Reads a file, or standard input for `-`, and examines it.
-pub fn open(path: &Path) -> Result<Examined, CliError> {
+/// Reads a file, or standard input for `-`, and examines it. The simulation steps by `method`.
+pub fn open(path: &Path, method: Method) -> Result<Examined, CliError> {
     if path.as_os_str() != "-" {
-        return Ok(examine(Document::open(path)));
+        return Ok(examine(Document::open(path), method));
     }
     let mut bytes = Vec::new();
     std::io::stdin()
@@ -40,7 +40,7 @@ pub fn open(path: &Path) -> Result<Examined, CliError> {
         .take(STDIN_LIMIT)
         .read_to_end(&mut bytes)
         .map_err(|error| CliError::Usage(format!("can't read standard input: {error}")))?;
-    Ok(examine(Document::from_bytes(&bytes)))
+    Ok(examine(Document::from_bytes(&bytes), method))
 }
 
 /// What to call a scene file in messages.
@@ -48,14 +48,15 @@ pub fn display_name(path: &Path) -> String {
     if path.as_os_str() == "-" { "<stdin>".into() } else { path.display().to_string() }
 }
 
-/// Finds all problems: of the text, of what it means, and of the geometry at the start.
-pub fn examine(document: Document) -> Examined {
+/// Finds all problems: of the text, of what it means, and of the geometry at the start. The simulation steps
+/// by `method`.
+pub fn examine(document: Document, method: Method) -> Examined {
     let mut problems = document.diagnostics().to_vec();
     let mut simulation = None;
     if !document.has_errors()
         && let Some(scene) = document.scene()
     {
-        let found = match Simulation::new(scene) {
+        let found = match Simulation::with_method(scene, method) {
             Ok(compiled) => simulation.insert(compiled).start_warnings().to_vec(),
             Err(error) => error.problems,
         };

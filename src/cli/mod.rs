@@ -4,6 +4,7 @@ mod check;
 mod edit;
 mod error;
 mod input;
+mod method;
 mod number;
 mod output;
 #[cfg(feature = "render")]

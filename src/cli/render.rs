@@ -9,7 +9,7 @@ use super::{CliError, input, number, output};
 use crate::record::{Frame, InlineRunner, RunCommand, RunState, Runner as _};
 use crate::render::{Offscreen, RenderError, Tile, render_picture, write_png};
 use crate::scene::{Scene, check_writable};
-use crate::sim::Fault;
+use crate::sim::{Fault, Method};
 use crate::view::{
     Align, Camera, DrawList, Label, OVERLAYS, OverlaySet, Theme, VIEWS, ViewInput, ViewPreset, Viewport,
     build_draw_list, scene_bounds,
@@ -83,7 +83,7 @@ pub(super) fn render(args: &RenderArgs) -> Result<(), CliError> {
         return Err(CliError::Usage(format!("--out would overwrite the scene {}", args.out.display())));
     }
     let name = input::display_name(&args.scene);
-    let examined = input::open(&args.scene)?;
+    let examined = input::open(&args.scene, Method::Exact)?;
     for line in examined.lines(&name) {
         super::say(line);
     }

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::{Answer, Command, Gesture, Place};
 use crate::record::EventRow;
 use crate::scene::{Edit, NodeKey};
+use crate::sim::Method;
 
 #[derive(Clone, Debug)]
 pub enum Action {
@@ -31,6 +32,8 @@ pub enum Action {
     SetDt(String),
     /// Multiple of the scene's time speed.
     SetSpeed(f64),
+    /// Another method than before goes back to the start.
+    SetMethod(Method),
 
     /// A file was chosen, dropped on the window or named on the command line.
     OpenPath(PathBuf),

@@ -20,6 +20,7 @@ impl Session {
             Action::ShowEvent(event) => self.shown_event = event,
             Action::SetDt(text) => return self.set_dt(&text),
             Action::SetSpeed(speed) => self.set_speed(speed),
+            Action::SetMethod(method) => self.set_method(method),
             Action::OpenPath(path) => self.ask_then(Intent::OpenPath(path)),
             Action::SaveTo(path) => self.save_to(path),
             Action::DialogCancelled => self.after_save = None,

@@ -2,6 +2,7 @@
 
 use super::parse_number;
 use crate::record::{Frame, RunState};
+use crate::sim::Method;
 
 /// Shortest and longest Δt a person may ask for, s. Below, a step is lost in the rounding of the time;
 /// above, one step of a lively scene takes minutes.
@@ -15,6 +16,7 @@ pub struct Playback {
     /// As typed, so that `1/60` stays `1/60`.
     dt_text: String,
     speed: f64,
+    method: Method,
     /// Set by every command that moves the time, cleared by those that go to the start: a frame alone
     /// can't tell, it may be older than the last command.
     moved: bool,
@@ -24,7 +26,14 @@ pub struct Playback {
 
 impl Default for Playback {
     fn default() -> Self {
-        Self { dt: 1.0 / 60.0, dt_text: "1/60".to_owned(), speed: 1.0, moved: false, back_since: None }
+        Self {
+            dt: 1.0 / 60.0,
+            dt_text: "1/60".to_owned(),
+            speed: 1.0,
+            method: Method::Exact,
+            moved: false,
+            back_since: None,
+        }
     }
 }
 
@@ -58,6 +67,15 @@ impl Playback {
         if speed.is_finite() {
             self.speed = speed.clamp(SPEED_RANGE.0, SPEED_RANGE.1);
         }
+    }
+
+    /// How the simulation is stepped.
+    pub fn method(&self) -> Method {
+        self.method
+    }
+
+    pub(super) fn set_method(&mut self, method: Method) {
+        self.method = method;
     }
 
     /// Whether the simulation stands at its start, so that loading an edited scene loses nothing.

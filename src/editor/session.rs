@@ -12,7 +12,7 @@ use super::recovery::Recovery;
 use super::{Action, Gesture, Notice, Outcome, Playback, Selection, Settings, Storage};
 use crate::record::{EventRow, Frame, RunCommand, RunState, Runner};
 use crate::scene::{Diagnostic, Document, NodeKey, NumberStyle, Scene};
-use crate::sim::SimEdit;
+use crate::sim::{Method, SimEdit};
 
 /// How long a drag must stand still until the simulation hears of it. Shorter would compile a scene for
 /// every mouse move.
@@ -369,6 +369,21 @@ impl Session {
         } else {
             self.runner.send(RunCommand::Reset);
             self.playback.went_to_start();
+        }
+    }
+
+    /// Steps by another method from now on, from the start of the scene as it is edited now.
+    pub(super) fn set_method(&mut self, method: Method) {
+        if method == self.playback.method() {
+            return;
+        }
+        let moved = !self.playback.is_at_start();
+        self.playback.set_method(method);
+        self.runner.send(RunCommand::Method(method));
+        self.reset();
+        if moved {
+            let text = format!("Back to the start: the method is now {}", method.name());
+            self.notices.push(Notice::info(text));
         }
     }
 

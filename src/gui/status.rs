@@ -7,6 +7,7 @@ use super::context::AppContext;
 use super::numbers;
 use super::widgets::mono;
 use crate::record::Frame;
+use crate::sim::Method;
 
 /// What the window itself knows.
 pub struct Pace {
@@ -21,6 +22,9 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>, pace: &Pace) {
         item(ui, "t", &format!("{:.6} s", frame.time), 92.0, "Model time");
         item(ui, "Δt", &step_text(frame), 82.0, "Number of the Δt looked at, and how far it is open");
         let help = "Event of this Δt looked at, and how many it has; … while it is not finished";
+        if frame.method != Method::Exact {
+            item(ui, "method", frame.method.name(), 40.0, frame.method.meaning());
+        }
         item(ui, "event", &event_text(frame), 62.0, help);
         item(ui, "in all", &numbers::count(frame.event_count), 46.0, "Events since the start");
         item(ui, "bodies", &body_text(frame), 56.0, "Moving + static bodies in the simulation");

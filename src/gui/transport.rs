@@ -11,6 +11,7 @@ use super::{icons, numbers};
 use crate::editor::{self, Action, Command, Shared};
 use crate::record::RunState;
 use crate::scene::Edit;
+use crate::sim::Method;
 
 const TRANSPORT: [Command; 7] = [
     Command::Reset,
@@ -61,6 +62,8 @@ impl Transport {
             ui.add_space(6.0);
             self.dt_field(ui, context);
             ui.add_space(6.0);
+            method_menu(ui, context);
+            ui.add_space(6.0);
             speed_menu(ui, context);
             ui.add_space(6.0);
             time_speed(ui, context);
@@ -81,9 +84,15 @@ impl Transport {
 
     fn dt_field(&mut self, ui: &mut Ui, context: &AppContext<'_>) {
         let playback = context.session.playback();
-        let help = "Length of one step in seconds: a number or a fraction, such as 0.01 or 1/60.\n\
-                    It only says where to look: events and states are the same for every Δt.";
-        let label = ui.label("Δt").on_hover_text(help);
+        let meaning = if playback.method().depends_on_dt() {
+            "This method's results depend on it."
+        } else {
+            "It only says where to look: events and states are the same for every Δt."
+        };
+        let help = format!(
+            "Length of one step in seconds: a number or a fraction, such as 0.01 or 1/60.\n{meaning}"
+        );
+        let label = ui.label("Δt").on_hover_text(&help);
         if !self.typing {
             playback.dt_text().clone_into(&mut self.dt_text);
         }
@@ -103,6 +112,29 @@ impl Transport {
             context.outbox.act(Action::SetDt(self.dt_text.clone()));
         }
     }
+}
+
+/// How to step. Another method starts again, so the entries say so.
+fn method_menu(ui: &mut Ui, context: &AppContext<'_>) {
+    let method = context.session.playback().method();
+    let label = ui.label("Method");
+    let response = egui::ComboBox::from_id_salt("method")
+        .selected_text(method.name())
+        .width(64.0)
+        .show_ui(ui, |ui| {
+            for other in Method::ALL {
+                let entry = ui.selectable_label(other == method, other.name());
+                if entry.on_hover_text(other.meaning()).clicked() {
+                    context.outbox.act(Action::SetMethod(other));
+                }
+            }
+        })
+        .response
+        .labelled_by(label.id);
+    response.on_hover_text(format!(
+        "How the simulation is stepped: {}.\nAnother one starts again from t = 0.",
+        method.meaning()
+    ));
 }
 
 fn speed_menu(ui: &mut Ui, context: &AppContext<'_>) {

@@ -1,10 +1,10 @@
 //! What can be asked of a runner.
 
 use crate::scene::Scene;
-use crate::sim::SimEdit;
+use crate::sim::{Method, SimEdit};
 
-/// Commands are carried out in the order sent, between events. All but `Load` and `Reset` are refused
-/// (and ignored) while no simulation is loaded.
+/// Commands are carried out in the order sent, between events. All but `Load`, `Reset` and `Method` are
+/// refused (and ignored) while no simulation is loaded.
 #[derive(Clone, Debug)]
 pub enum RunCommand {
     /// Compiles a scene and goes to its start. Forgets recorded edits.
@@ -13,6 +13,8 @@ pub enum RunCommand {
     Unload,
     /// Back to the start of the loaded scene.
     Reset,
+    /// How to step from now on; another method than before goes back to the start of the loaded scene.
+    Method(Method),
     /// One Δt forward (`count` of them). Δt in seconds, > 0.
     Step {
         dt: f64,

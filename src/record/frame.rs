@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::scene::{Diagnostic, NodeKey};
-use crate::sim::{ContactState, Counters, Energy, Event, Momentum, Plan, Tiling};
+use crate::sim::{ContactState, Counters, Energy, Event, Method, Momentum, Plan, Tiling};
 
 /// What a runner is doing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -54,6 +54,8 @@ pub struct Frame {
     /// Grows with every frame published.
     pub revision: u64,
     pub state: RunState,
+    /// How it steps.
+    pub method: Method,
     /// Model time, s.
     pub time: f64,
     /// Number of the Δt being looked at: 0 at the start, k after the k-th.

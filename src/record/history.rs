@@ -87,9 +87,11 @@ impl History {
 
     pub(super) fn note_tick(&mut self, simulation: &Simulation, grid: StepGrid, event: u64) {
         let at = Point { event, time: simulation.time() };
-        // After going back, another Δt makes other ticks.
-        self.ticks.truncate(self.ticks.partition_point(|tick| tick.at.time < at.time));
-        self.ticks.push(Tick { at, grid });
+        let place = self.ticks.partition_point(|tick| tick.at.time < at.time);
+        match self.ticks.get_mut(place) {
+            Some(again) if again.at.time == at.time => *again = Tick { at, grid },
+            _ => self.ticks.push(Tick { at, grid }),
+        }
         if self.ticks.len() > LONGEST_PAST {
             self.ticks.drain(..LONGEST_PAST / 4);
         }
@@ -98,6 +100,27 @@ impl History {
         if self.keyframes.last().is_none_or(|last| segments >= last.segments + apart) {
             self.keep(simulation, grid, at);
         }
+    }
+
+    /// Time of the first tick after `now`.
+    fn next_tick(&self, now: f64) -> Option<f64> {
+        self.ticks.get(self.ticks.partition_point(|tick| tick.at.time <= now)).map(|tick| tick.at.time)
+    }
+
+    /// Forgets what another Δt than before, from now to `end`, makes untrue: the ticks to come, and where
+    /// the method depends on Δt the whole future. Gives the number of edits in it.
+    pub(super) fn divide_time_anew(&mut self, simulation: &Simulation, event: u64, end: f64) -> usize {
+        let at = Point { event, time: simulation.time() };
+        if self.next_tick(at.time).is_none_or(|next| next == end) {
+            return 0;
+        }
+        if simulation.method().depends_on_dt() {
+            let lost = self.edits.len() - self.applied;
+            self.forget_after(at);
+            return lost;
+        }
+        self.ticks.retain(|tick| tick.at.time <= at.time);
+        0
     }
 
     /// Records an edit made now. What was recorded for later is another future and is forgotten.
@@ -195,28 +218,38 @@ impl Run {
         self.message = None;
     }
 
-    /// Simulates again up to a point, with the edits on the way applied at their stamps.
+    /// Simulates again up to a point, Δt by Δt as before, with the edits on the way applied at their stamps.
     fn run_to(&mut self, target: Point) {
         loop {
-            self.apply_due_edits(target.time);
-            if self.last_event >= target.event {
-                break;
+            let now = self.simulation.time();
+            let open = self.grid.open.map(|(_, end)| end).filter(|end| *end > now);
+            let end = self.history.next_tick(now).or(open).unwrap_or(target.time);
+            self.begin_until(end, target.time);
+            if self.last_event >= target.event && self.simulation.time() >= target.time {
+                return;
             }
-            self.simulation.begin(target.time);
             match self.simulation.next_event() {
                 Ok(Some(event)) => self.note(&event),
-                Ok(None) | Err(_) => break,
+                Ok(None) if self.simulation.time() < target.time => {}
+                Ok(None) | Err(_) => return,
             }
-        }
-        if self.simulation.time() < target.time {
-            self.simulation.begin(target.time);
-            // No event is left before the point, so there is nothing that could go wrong.
-            let _ = self.simulation.finish(&mut |_, _| {});
         }
     }
 
+    /// Begins the Δt that ends at `end`, or goes on in it, up to `until`. Recorded edits that are due are
+    /// applied first.
+    pub(super) fn begin_until(&mut self, end: f64, until: f64) {
+        let until = until.min(end);
+        // A method that steps by Δt must know its end before it is asked to stop inside it.
+        self.simulation.begin(end);
+        self.apply_due_edits(until);
+        // An edit ends the Δt; the rest of it is begun anew.
+        self.simulation.begin(end);
+        self.simulation.begin(until);
+    }
+
     /// Applies the recorded edits whose turn it is, up to a time, each exactly where it was made.
-    pub(super) fn apply_due_edits(&mut self, until: f64) {
+    fn apply_due_edits(&mut self, until: f64) {
         while let Some(next) = self.history.edits.get(self.history.applied) {
             if next.at.event != self.last_event || next.at.time > until {
                 return;

@@ -21,6 +21,7 @@ pub(super) fn frame_of(recorder: &mut Recorder, revision: u64, pace: Pace) -> Fr
     let base = Frame {
         revision,
         state: recorder.state(),
+        method: recorder.method,
         problems: recorder.problems.clone(),
         step_wall_s: pace.step_wall_s,
         events_per_s: pace.events_per_s,

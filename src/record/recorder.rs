@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::history::History;
 use super::{EventRow, RunCommand, RunState};
 use crate::scene::{Diagnostic, Scene};
-use crate::sim::{Event, Progress, SimEdit, Simulation};
+use crate::sim::{Event, Method, Progress, SimEdit, Simulation};
 
 /// Events of one Δt that are kept for the table; older ones are left out, and the frame says so.
 const MAX_ROWS: usize = 20_000;
@@ -16,6 +16,8 @@ const MAX_ROWS: usize = 20_000;
 #[derive(Debug, Default)]
 pub(super) struct Recorder {
     pub(super) run: Option<Run>,
+    /// How simulations are stepped.
+    pub(super) method: Method,
     /// Why the scene can't be simulated, or geometric warnings of the start.
     pub(super) problems: Arc<Vec<Diagnostic>>,
     task: Task,
@@ -143,8 +145,13 @@ impl Recorder {
     pub(super) fn command(&mut self, command: RunCommand) {
         match command {
             RunCommand::Load(scene) => self.load(scene),
-            RunCommand::Unload => *self = Self::default(),
+            RunCommand::Unload => *self = Self { method: self.method, ..Self::default() },
             RunCommand::Reset => self.reset(),
+            RunCommand::Method(method) if method != self.method => {
+                self.method = method;
+                self.reset();
+            }
+            RunCommand::Method(_) => {}
             RunCommand::Pause => self.stop(),
             RunCommand::Edit(edit) => self.edit(&edit),
             other => {
@@ -270,7 +277,7 @@ impl Recorder {
 
     fn load(&mut self, scene: Box<Scene>) {
         self.stop();
-        match Simulation::new(&scene) {
+        match Simulation::with_method(&scene, self.method) {
             Ok(simulation) => {
                 self.problems = Arc::new(simulation.start_warnings().to_vec());
                 self.run = Some(Run::new(simulation, scene));
@@ -318,8 +325,7 @@ impl Run {
             return Slice::Pause;
         }
         *budget -= 1;
-        self.apply_due_edits(end);
-        self.simulation.begin(end);
+        self.begin_until(end, end);
         match self.simulation.work(PREDICTIONS) {
             Ok(Progress::Event(event)) => {
                 self.note(&event);
@@ -342,6 +348,11 @@ impl Run {
         if self.grid.open.is_none() {
             self.grid.open(self.simulation.time(), dt);
             self.rows = Rows::default();
+            let end = self.grid.open.map_or(0.0, |(_, end)| end);
+            let lost = self.history.divide_time_anew(&self.simulation, self.last_event, end);
+            if lost > 0 {
+                self.message = Some(format!("{lost} edit(s) made later, in steps of another Δt"));
+            }
         }
         self.grid.open.unwrap_or_default()
     }

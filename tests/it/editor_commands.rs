@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use polyscene::editor::{COMMANDS, Command, Menu, NoticeLevel, Outcome, Shortcut, info, palette};
+use polyscene::editor::{Action, COMMANDS, Command, Menu, NoticeLevel, Outcome, Shortcut, info, palette};
+use polyscene::sim::Method;
 
 use super::editor_support::Bench;
 
@@ -118,4 +119,17 @@ fn the_palette_finds_commands_samples_and_overlays_by_their_letters() {
     assert!(matches!(best("overlay veloc"), Some(Command::ToggleOverlay(_))));
     assert!(palette(&bench.session, "qqqq").is_empty());
     assert!(palette(&bench.session, "").len() > COMMANDS.len());
+}
+
+#[test]
+fn another_method_is_told_to_the_runner_and_goes_to_the_start() {
+    let mut bench = Bench::open();
+    bench.step();
+    bench.act(Action::SetMethod(Method::Exact));
+    assert!(bench.sent().is_empty(), "it is the method already");
+    bench.act(Action::SetMethod(Method::Fixed));
+    assert_eq!(bench.sent(), ["Method(Fixed)", "Reset"]);
+    assert!(bench.session.playback().is_at_start());
+    assert_eq!(bench.session.playback().method(), Method::Fixed);
+    assert!(bench.notices().contains("the method is now fixed"));
 }

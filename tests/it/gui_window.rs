@@ -8,6 +8,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use super::gui_support::Window;
 use polyscene::editor::{COMMANDS, Menu};
+use polyscene::sim::Method;
 use polyscene::view::OVERLAYS;
 
 #[test]
@@ -100,6 +101,22 @@ fn stepping_by_dt_and_by_event() {
     assert_eq!(window.frame().dt_index, 7);
     window.click("Reset");
     assert_eq!(window.frame().time, 0.0);
+}
+
+#[test]
+fn another_method_starts_again_and_says_so() {
+    let mut window = Window::thesis();
+    window.click("Step forward");
+    window.click_role(Role::ComboBox, "Method");
+    window.click_role(Role::Button, "thesis");
+    assert_eq!((window.frame().method, window.frame().time), (Method::Thesis, 0.0));
+    assert!(window.has_containing("the method is now thesis"));
+    assert!(!window.harness.state().session().is_dirty(), "the document does not know of methods");
+    window.click("Next event");
+    assert_eq!(window.frame().event_count, 1);
+    window.click_role(Role::ComboBox, "Method");
+    window.click_role(Role::Button, "exact");
+    assert_eq!((window.frame().method, window.frame().time), (Method::Exact, 0.0));
 }
 
 #[test]

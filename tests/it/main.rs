@@ -43,6 +43,8 @@ mod gui_window;
 mod gui_words;
 // The rules of the source tree: layers, file sizes, function sizes.
 mod layering;
+// Runners with the methods that step by Δt: going back at the Δt of then.
+mod record_methods;
 // Runners: the Δt grid, going back, edits with their stamps, playing.
 mod record_runner;
 // Pictures drawn in software without a window: silhouettes against their areas, depth order, caching.

@@ -12,20 +12,20 @@ mod summary;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use self::drive::Ending;
 use self::recorder::Recorder;
 use self::samples::SampleGrid;
 use self::summary::Summary;
 use super::output::{self, is_stdout};
-use super::{CliError, input, number};
-use crate::sim::EventKind;
+use super::{CliError, input, method, number};
+use crate::sim::{EventKind, Method};
 
 /// Simulate a scene from t = 0 and write states, events and a summary
 ///
 /// All quantities are in SI units: metres, seconds, kilograms, joules. Δt only says when to look: events
-/// and states are the same bits for every Δt. The TimeSpeed of the file is for watching and scales nothing
+/// and states are the same bits for every Δt, unless --method asks for one that steps by Δt. The TimeSpeed of the file is for watching and scales nothing
 /// here. Without an output on standard output a summary for people is printed.
 #[derive(Debug, Args)]
 #[command(after_help = examples(), after_long_help = long_help())]
@@ -46,7 +46,7 @@ pub struct RunArgs {
     every: u64,
 
     /// How to step
-    #[arg(long, value_enum, default_value_t = Method::Exact)]
+    #[arg(long, default_value = Method::Exact.name(), value_parser = method::parser())]
     method: Method,
 
     /// Write states as JSON Lines to this file; `-` is standard output
@@ -66,26 +66,12 @@ pub struct RunArgs {
     json: bool,
 }
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Method {
-    /// Event by event; Δt only samples
-    Exact,
-}
-
-impl Method {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Exact => "exact",
-        }
-    }
-}
-
 pub(super) fn run(args: &RunArgs) -> Result<(), CliError> {
     let grid = SampleGrid::new(args.dt, args.until).map_err(CliError::Usage)?;
     refuse_clashing_outputs(args)?;
 
     let name = input::display_name(&args.scene);
-    let examined = input::open(&args.scene)?;
+    let examined = input::open(&args.scene, args.method)?;
     let warnings = examined.lines(&name);
     for line in &warnings {
         super::say(line);
@@ -109,7 +95,7 @@ pub(super) fn run(args: &RunArgs) -> Result<(), CliError> {
     if args.json {
         summary.print_json()?;
     } else if !args.writes_to_stdout() {
-        summary.print_for_people(&name, args.method.name())?;
+        summary.print_for_people(&name)?;
     }
     match ending {
         Ending::Finished => match &args.final_scene {
@@ -161,6 +147,7 @@ fn examples() -> &'static str {
      polyscene run scene.xml --dt 1/60 --until 60\n  \
      polyscene run scene.xml --dt 0.01 --until 10 --events - | head\n  \
      polyscene run scene.xml --dt 0.01 --until 10 --every 100 --states states.jsonl --json\n  \
+     polyscene run scene.xml --dt 1/60 --until 60 --method thesis --json\n  \
      polyscene run scene.xml --dt 1 --until 5 --final after-5-s.xml"
 }
 

@@ -27,7 +27,7 @@ impl SampleGrid {
         if count > MAX_STEPS {
             return Err(format!(
                 "--until {until:?} in steps of --dt {dt:?} makes {count:.2e} steps, more than {MAX_STEPS:.0e}: \
-                 make --dt larger (results do not depend on it)"
+                 make --dt larger (results of the method exact do not depend on it)"
             ));
         }
         let whole = count.floor();

@@ -12,6 +12,8 @@ use crate::sim::{Energy, EventKind, Plan, Simulation};
 /// The object that `--json` prints. What can't be computed is `null`.
 #[derive(Serialize)]
 pub struct Summary<'a> {
+    /// How it was stepped.
+    method: &'static str,
     /// Model time reached, s.
     t: f64,
     /// Δt asked for, s.
@@ -91,6 +93,7 @@ impl<'a> Summary<'a> {
         let counters = sim.counters();
         let momentum = sim.momentum();
         Self {
+            method: sim.method().name(),
             t: sim.time(),
             dt: grid.dt,
             steps: grid.steps,
@@ -125,13 +128,13 @@ impl<'a> Summary<'a> {
         output::print(format!("{text}\n").as_bytes())
     }
 
-    pub fn print_for_people(&self, scene: &str, method: &str) -> Result<(), CliError> {
-        output::print(self.for_people(scene, method).as_bytes())
+    pub fn print_for_people(&self, scene: &str) -> Result<(), CliError> {
+        output::print(self.for_people(scene).as_bytes())
     }
 
-    fn for_people(&self, scene: &str, method: &str) -> String {
+    fn for_people(&self, scene: &str) -> String {
         let (t, dt) = (short(self.t), short(self.dt));
-        let mut text = format!("{scene}: {t} s, {} steps of {dt} s, method {method}\n", self.steps);
+        let mut text = format!("{scene}: {t} s, {} steps of {dt} s, method {}\n", self.steps, self.method);
         if let Some(stopped) = &self.stopped {
             line(&mut text, "stopped", stopped);
         }
@@ -142,6 +145,10 @@ impl<'a> Summary<'a> {
         let residual = small(self.momentum.residual);
         line(&mut text, "momentum", &format!("({x}, {y}, {z}) kg·m/s; residual {residual}"));
         line(&mut text, "overlap", &format!("at most {} m at a sample", small(self.max_overlap)));
+        if self.work.given_up > 0 {
+            let given_up = format!("{} times: a Δt ran into its limit of collisions", self.work.given_up);
+            line(&mut text, "given up", &given_up);
+        }
         line(&mut text, "plan", &self.plan.for_people());
         for (nth, what) in self.plan.left_out.iter().enumerate() {
             line(&mut text, if nth == 0 { "left out" } else { "" }, what);

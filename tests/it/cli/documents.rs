@@ -4,6 +4,7 @@ use std::process::{Command, Stdio};
 
 use polyscene::cli::examine;
 use polyscene::scene::Document;
+use polyscene::sim::Method;
 
 use super::outcome;
 
@@ -69,7 +70,7 @@ fn the_examples_of_the_readme_print_what_it_shows() {
 #[test]
 fn the_scene_of_the_formats_page_is_sound_and_uses_1_1() {
     let xml = FORMAT.split("```xml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a scene");
-    let examined = examine(Document::from_bytes(xml.as_bytes()));
+    let examined = examine(Document::from_bytes(xml.as_bytes()), Method::Exact);
     assert_eq!(examined.lines("format.md"), [""; 0]);
     assert!(examined.simulation.is_some());
     assert_eq!(examined.document.reasons_for_1_1().len(), 2, "drag and solver");

@@ -222,3 +222,22 @@ fn what_is_not_a_number_is_null() {
     let summary = &rows(&run(&bench, &["--dt", "5e8", "--until", "1e9", "--json"]))[0];
     assert_eq!(summary["energy"]["kinetic"], Value::Null, "{summary}");
 }
+
+#[test]
+fn methods_step_as_they_say() {
+    let bench = Bench::with_scene(BOUNCE);
+    for method in ["exact", "thesis", "fixed"] {
+        let options = ["--dt", "0.1", "--until", "2", "--method", method];
+        let summary: Value =
+            serde_json::from_str(&run(&bench, &[&options[..], &["--json"]].concat())).unwrap();
+        assert_eq!(summary["method"], method);
+        assert_eq!(summary["work"]["given_up"], 0);
+        let events = rows(&run(&bench, &[&options[..], &["--events", "-"]].concat()));
+        let early = first_landing() - number(&events[0]["t"]);
+        let allowed = if method == "exact" { 1e-12 } else { 1e-6 };
+        assert!((-1e-12..=allowed).contains(&early), "{method}: {early}");
+        assert_eq!(events.len(), 1, "{method}");
+        let text = run(&bench, &options);
+        assert!(text.contains(&format!("method {method}")), "{text}");
+    }
+}
