@@ -14,6 +14,7 @@ use super::error::GuiError;
 use crate::editor::{Action, COMMANDS, Command, Storage};
 use crate::record::ThreadRunner;
 use crate::render::write_png;
+use crate::sim::Method;
 use crate::view::OVERLAYS;
 
 /// How the window opens.
@@ -25,7 +26,7 @@ pub struct Options {
     /// Write a picture of the window, then close it.
     pub screenshot: Option<PathBuf>,
     /// Commands to carry out first: ids of [`COMMANDS`], `id*count`, `select:name`, `overlay:id`,
-    /// `tab:problems`, `dt:1/60`, separated by commas.
+    /// `tab:problems`, `dt:1/60`, `method:thesis`, separated by commas.
     pub steps: Option<String>,
     /// Turn the first view for this many frames and report.
     pub bench_orbit: Option<u32>,
@@ -122,6 +123,7 @@ enum Step {
     Command(Command),
     Select(String),
     Dt(String),
+    Method(Method),
     Tab(Tab),
     Event(usize),
 }
@@ -170,6 +172,7 @@ fn step(text: &str) -> Option<Step> {
         return match kind {
             "select" => Some(Step::Select(value.to_owned())),
             "dt" => Some(Step::Dt(value.to_owned())),
+            "method" => Some(Step::Method(Method::from_name(value)?)),
             "event" => Some(Step::Event(value.parse().ok()?)),
             "tab" if value == "problems" => Some(Step::Tab(Tab::Problems)),
             "tab" if value == "events" => Some(Step::Tab(Tab::Events)),
@@ -244,6 +247,7 @@ impl App {
         match step {
             Step::Command(command) => self.execute(ctx, *command),
             Step::Dt(text) => self.perform(Action::SetDt(text.clone())),
+            Step::Method(method) => self.perform(Action::SetMethod(*method)),
             Step::Tab(tab) => self.show_tab(*tab),
             Step::Select(name) => {
                 let key = self.session().scene().and_then(|scene| {

@@ -90,11 +90,8 @@ fn a_bullet_is_seen_exactly_when_a_step_ends_in_the_plate() {
             let events = run(&mut simulation(&scene, method), 0.7, dt);
             assert_eq!(!events.is_empty(), off < radius, "{method:?}, Δt {dt}: steps end {off} m off");
         }
-        if off < radius {
-            seen += 1
-        } else {
-            missed += 1
-        }
+        let count = if off < radius { &mut seen } else { &mut missed };
+        *count += 1;
         if stride < 2.0 * radius {
             assert!(off < radius, "no step shorter than the bullet jumps over a plate");
         }
