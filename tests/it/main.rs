@@ -41,6 +41,8 @@ mod gui_support;
 mod gui_window;
 // What the window says back: refusals, Escape, snapping, markers, names.
 mod gui_words;
+// The hard cases: every figure within its limit at every Δt.
+mod hard_cases;
 // The rules of the source tree: layers, file sizes, function sizes.
 mod layering;
 // Runners with the methods that step by Δt: going back at the Δt of then.
