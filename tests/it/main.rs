@@ -43,6 +43,8 @@ mod gui_window;
 mod gui_words;
 // The hard cases: every figure within its limit at every Δt.
 mod hard_cases;
+// Every scene of the repository: the same bits for every Δt, tiling and file order.
+mod hard_invariance;
 // The rules of the source tree: layers, file sizes, function sizes.
 mod layering;
 // Runners with the methods that step by Δt: going back at the Δt of then.
