@@ -1,4 +1,42 @@
 //! How accurate a simulation is and what that costs: references, residuals, work-precision runs.
 
+// The hard cases with their known answers.
 pub mod cases;
+
+// What a study is asked, and what it answers.
+mod axes;
+mod report;
+mod settings;
+
+// How it is carried out.
+mod candidate;
+mod control;
+mod hits;
+mod measure;
+mod overlap;
 pub mod reference;
+mod run;
+mod timing;
+mod truth;
+
+// How it is told.
+mod chart;
+mod csv;
+mod scale;
+mod table;
+mod text;
+
+pub use axes::{AXES, Axis};
+pub use candidate::{Candidate, Marker, Method};
+pub use chart::{ChartError, svg};
+pub use control::{Control, Progress};
+pub use csv::csv;
+pub use hits::{Differences, Hit, compare};
+pub use measure::{Limits, measure};
+pub use report::{Horizon, HorizonCause, Point, Report, Stop};
+pub use run::{StudyError, run};
+pub use scale::{CurvePoint, Scale, series_of};
+pub use settings::{KNOBS, Knob, Settings, SettingsError};
+pub use table::table;
+pub use text::{seconds, short};
+pub use truth::{Truth, TruthSample};

@@ -1,0 +1,43 @@
+//! How whoever started a study follows it and ends it.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// What a study is doing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Progress {
+    /// Share of the work done, 0 to 1; a guess.
+    pub part: f64,
+    /// One line for a person.
+    pub what: String,
+}
+
+/// The line to whoever started a study.
+pub struct Control<'a> {
+    cancel: &'a AtomicBool,
+    report: &'a mut dyn FnMut(&Progress),
+    /// The stage that is going on: its name, where it starts and which share of the whole it is.
+    stage: (String, f64, f64),
+}
+
+impl<'a> Control<'a> {
+    /// `cancel` ends the study soon after it becomes true; `report` is called often, from the study's thread.
+    pub fn new(cancel: &'a AtomicBool, report: &'a mut dyn FnMut(&Progress)) -> Self {
+        Self { cancel, report, stage: (String::new(), 0.0, 1.0) }
+    }
+
+    /// Whether to end now.
+    pub fn is_cancelled(&self) -> bool {
+        self.cancel.load(Ordering::Relaxed)
+    }
+
+    pub(super) fn begin(&mut self, what: String, start: f64, share: f64) {
+        self.stage = (what, start, share);
+        self.show(0.0);
+    }
+
+    /// `part` of the stage is done.
+    pub(super) fn show(&mut self, part: f64) {
+        let (what, start, share) = &self.stage;
+        (self.report)(&Progress { part: start + share * part.clamp(0.0, 1.0), what: what.clone() });
+    }
+}

@@ -1,0 +1,243 @@
+//! One run, looked at from all sides; its time is taken apart from this.
+
+use std::time::{Duration, Instant};
+
+use glam::DVec3;
+
+use super::hits::compare;
+use super::overlap::OverlapMonitor;
+use super::{Candidate, Control, Hit, Point, Settings, Stop, Truth};
+use crate::scene::Scene;
+use crate::sim::{BodyRef, Event, EventKind, Progress, Simulation};
+
+/// When a run is looked at, and when it is given up.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    pub until: f64,
+    pub sample_dt: f64,
+    /// Longest wall time, s.
+    pub run_limit: f64,
+    pub agreement: f64,
+    pub event_window: f64,
+}
+
+impl Limits {
+    pub fn of(settings: &Settings) -> Self {
+        Self {
+            until: settings.until,
+            sample_dt: settings.sample_dt(),
+            run_limit: settings.run_limit,
+            agreement: settings.agreement,
+            event_window: settings.event_window,
+        }
+    }
+
+    /// The last step of a run of this Δt, from 1: beyond the end by rounding is still the end.
+    pub(super) fn last_step(&self, dt: f64) -> u64 {
+        (self.until / dt * (1.0 + 1e-12)) as u64
+    }
+
+    /// The times at which a candidate is compared, s.
+    pub fn sample_times(&self, candidate: &Candidate) -> Vec<f64> {
+        let (dt, every) = candidate.stride(self.sample_dt);
+        (1..=self.last_step(dt) / every).map(|k| (k * every) as f64 * dt).collect()
+    }
+}
+
+/// Predictions carried out between two looks at the clock.
+pub(super) const PREDICTIONS: u32 = 256;
+
+/// Runs one candidate and compares it. `None` when cancelled. `scene` is what it simulates, so that a test
+/// can put a wrong law on trial.
+pub fn measure(
+    candidate: &Candidate,
+    scene: &Scene,
+    truth: &Truth,
+    limits: &Limits,
+    control: &mut Control,
+) -> Option<Point> {
+    let sim = match candidate.start(scene) {
+        Ok(sim) => sim,
+        Err(error) => return Some(Trial::blank(candidate, Some(Stop::Fault(error.to_string())))),
+    };
+    let mut trial = Trial::new(candidate, scene, sim, truth, limits);
+    trial.look();
+    let (dt, every) = candidate.stride(limits.sample_dt);
+    let deadline = Instant::now() + Duration::from_secs_f64(limits.run_limit.min(1e9));
+    let steps = limits.last_step(dt);
+    for step in 1..=steps {
+        let stop = trial.step(step as f64 * dt, deadline, control)?;
+        trial.point.reached = trial.sim.time();
+        if let Some(stop) = stop {
+            trial.point.stopped = Some(stop);
+            break;
+        }
+        if step % every == 0 || step == steps {
+            trial.sample();
+            control.show(step as f64 / steps as f64);
+        } else if trial.monitor.may_look_often() {
+            trial.look();
+        }
+    }
+    Some(trial.finished())
+}
+
+/// A run that is being looked at.
+struct Trial<'a> {
+    sim: Simulation,
+    truth: &'a Truth,
+    limits: &'a Limits,
+    monitor: OverlapMonitor,
+    /// The dynamic bodies in the order of the file.
+    bodies: Vec<BodyRef>,
+    /// Index in the scene of dynamic and of static bodies.
+    dynamic: Vec<usize>,
+    fixed: Vec<usize>,
+    hits: Vec<Hit>,
+    has_parted: bool,
+    point: Point,
+}
+
+impl<'a> Trial<'a> {
+    fn new(
+        candidate: &Candidate,
+        scene: &Scene,
+        sim: Simulation,
+        truth: &'a Truth,
+        limits: &'a Limits,
+    ) -> Self {
+        let index = |body: BodyRef| {
+            let label = sim.label(body);
+            scene.bodies.iter().position(|body| body.label == label).unwrap_or(usize::MAX)
+        };
+        let mut bodies: Vec<BodyRef> = sim.dynamic_bodies().collect();
+        let dynamic = bodies.iter().map(|&body| index(body)).collect();
+        let fixed = (0..sim.static_count() as u32).map(|k| index(BodyRef::Static(k))).collect();
+        bodies.sort_by_key(|&body| index(body));
+        Self {
+            monitor: OverlapMonitor::new(scene),
+            bodies,
+            dynamic,
+            fixed,
+            hits: Vec::new(),
+            has_parted: false,
+            point: Self::blank(candidate, None),
+            sim,
+            truth,
+            limits,
+        }
+    }
+
+    fn blank(candidate: &Candidate, stopped: Option<Stop>) -> Point {
+        Point {
+            method: candidate.method,
+            dt: candidate.dt,
+            tolerance: candidate.tolerance,
+            reached: 0.0,
+            stopped,
+            wall_per_s: None,
+            wall_range: None,
+            position_error: None,
+            velocity_error: None,
+            energy_residual: None,
+            momentum_residual: 0.0,
+            worst_overlap: 0.0,
+            impacts: 0,
+            missed: None,
+            wrong: None,
+            first_difference: None,
+            follows_until: None,
+        }
+    }
+
+    /// One Δt. The outer `None` is a request to end, an inner `Some` a reason of the run's own.
+    fn step(&mut self, time: f64, deadline: Instant, control: &Control) -> Option<Option<Stop>> {
+        self.sim.begin(time);
+        loop {
+            match self.sim.work(PREDICTIONS) {
+                Ok(Progress::Event(event)) => self.event(&event),
+                Ok(Progress::Working) => {}
+                Ok(Progress::Done) => return Some(None),
+                Err(fault) => return Some(Some(Stop::Fault(fault.to_string()))),
+            }
+            if control.is_cancelled() {
+                return None;
+            }
+            if Instant::now() > deadline {
+                return Some(Some(Stop::RunLimit));
+            }
+        }
+    }
+
+    fn event(&mut self, event: &Event) {
+        if let (EventKind::Impact, Some(b)) = (event.kind, event.b) {
+            self.point.impacts += 1;
+            self.hits
+                .push(Hit { time: event.time, bodies: [self.scene_index(event.a), self.scene_index(b)] });
+        }
+        if self.monitor.may_look_often() {
+            self.look();
+        }
+    }
+
+    fn scene_index(&self, body: BodyRef) -> usize {
+        let found = match body {
+            BodyRef::Dynamic(k) => self.dynamic.get(k as usize),
+            BodyRef::Static(k) => self.fixed.get(k as usize),
+        };
+        found.copied().unwrap_or(usize::MAX)
+    }
+
+    /// Looks for overlaps.
+    fn look(&mut self) -> Vec<(DVec3, DVec3)> {
+        let states: Vec<_> = self
+            .bodies
+            .iter()
+            .filter_map(|&body| self.sim.state(body))
+            .map(|state| (state.position, state.velocity))
+            .collect();
+        let positions: Vec<DVec3> = states.iter().map(|state| state.0).collect();
+        self.point.worst_overlap = self.point.worst_overlap.max(self.monitor.worst(&positions));
+        states
+    }
+
+    fn sample(&mut self) {
+        let states = self.look();
+        let energy = self.sim.energy().residual.map(f64::abs);
+        let point = &mut self.point;
+        point.energy_residual = larger(point.energy_residual, energy);
+        point.momentum_residual = point.momentum_residual.max(self.sim.momentum().residual);
+        let Some(truth) = self.truth.at(self.sim.time()) else { return };
+        let (mut position, mut velocity) = (0.0_f64, 0.0_f64);
+        for (own, expected) in states.iter().zip(&truth.states) {
+            position = position.max((own.0 - expected.0).length());
+            velocity = velocity.max((own.1 - expected.1).length());
+        }
+        point.position_error = larger(point.position_error, Some(position));
+        point.velocity_error = larger(point.velocity_error, Some(velocity));
+        self.has_parted |= position > self.limits.agreement;
+        if !self.has_parted {
+            point.follows_until = Some(truth.time);
+        }
+    }
+
+    fn finished(mut self) -> Point {
+        let horizon = self.truth.horizon.time.min(self.point.reached);
+        if horizon > 0.0 {
+            let window = self.limits.event_window + self.point.dt.unwrap_or(0.0);
+            let found = compare(&self.hits, &self.truth.hits, horizon - window, window);
+            (self.point.missed, self.point.wrong) = (Some(found.missed), Some(found.wrong));
+            self.point.first_difference = found.first;
+            // Parted at the first sample.
+            self.point.follows_until.get_or_insert(0.0);
+        }
+        self.point
+    }
+}
+
+fn larger(known: Option<f64>, new: Option<f64>) -> Option<f64> {
+    match (known, new) {
+        (Some(known), Some(new)) => Some(known.max(new)),
+        (known, new) => known.or(new),
+    }
+}

@@ -1,0 +1,79 @@
+//! The report as an aligned table for people.
+
+use super::{AXES, Point, Report, Stop, seconds, short};
+
+/// The statement about the horizon and the table, with units, lines ended by a line feed.
+pub fn table(report: &Report) -> String {
+    let mut text = format!("{}\n{}\n", report.title(), report.horizon_statement());
+    if report.cancelled {
+        text += "Cancelled: this is what was done until then.\n";
+    }
+    if report.points.is_empty() {
+        return text;
+    }
+    text += "\n";
+    let mut rows = heads();
+    rows.extend(report.points.iter().map(|point| cells(point)));
+    let widths: Vec<usize> = (0..rows[0].len())
+        .map(|column| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0))
+        .collect();
+    for row in &rows {
+        let mut line = String::new();
+        for (nth, (cell, width)) in row.iter().zip(&widths).enumerate() {
+            let space = " ".repeat(width - cell.chars().count());
+            // Names to the left, numbers to the right.
+            line += &if nth == 0 { format!("{cell}{space}") } else { format!("  {space}{cell}") };
+        }
+        text += line.trim_end();
+        text += "\n";
+    }
+    for point in &report.points {
+        if let Some(stop) = &point.stopped {
+            text += &format!("{} at t = {} s: {}\n", name(point), short(point.reached), reason(stop));
+        }
+    }
+    text
+}
+
+/// Names of the columns, and their units.
+fn heads() -> Vec<Vec<String>> {
+    let own = [("method", ""), ("Δt", ""), ("tolerance", "")];
+    let end = [("impacts", ""), ("missed", ""), ("wrong", ""), ("follows until", "s")];
+    let axes = AXES.iter().filter(|axis| axis.id != "missed_or_wrong").map(|axis| (axis.column, axis.unit));
+    let all: Vec<_> = own.into_iter().chain(axes).chain(end).collect();
+    let unit = |unit: &str| if unit.is_empty() { String::new() } else { format!("[{unit}]") };
+    vec![
+        all.iter().map(|(name, _)| (*name).to_owned()).collect(),
+        all.iter().map(|(_, of)| unit(of)).collect(),
+    ]
+}
+
+fn cells(point: &Point) -> Vec<String> {
+    let number = |value: Option<f64>| value.map_or("n/a".into(), short);
+    let count = |value: Option<u64>| value.map_or("n/a".into(), |value| value.to_string());
+    let mut cells = vec![
+        point.method.name().to_owned(),
+        point.dt.map_or("–".into(), seconds),
+        point.tolerance.map_or("–".into(), short),
+    ];
+    let axes = AXES.iter().filter(|axis| axis.id != "missed_or_wrong");
+    cells.extend(axes.map(|axis| number((axis.get)(point))));
+    cells.extend([
+        point.impacts.to_string(),
+        count(point.missed),
+        count(point.wrong),
+        number(point.follows_until),
+    ]);
+    cells
+}
+
+fn name(point: &Point) -> String {
+    point.dt.map_or(point.method.name().into(), |dt| format!("{}, Δt {},", point.method.name(), seconds(dt)))
+}
+
+fn reason(stop: &Stop) -> String {
+    match stop {
+        Stop::RunLimit => "its wall time was over; the figures are those of this part".into(),
+        Stop::Fault(what) => what.clone(),
+    }
+}
