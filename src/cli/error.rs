@@ -20,6 +20,9 @@ pub enum CliError {
     /// Ctrl-C or a request to terminate.
     #[error("interrupted at t = {time} s; what was written so far is complete")]
     Interrupted { time: f64 },
+    /// The same, of a study.
+    #[error("interrupted; the report holds what was done so far")]
+    Cancelled,
 }
 
 impl CliError {
@@ -29,7 +32,7 @@ impl CliError {
             Self::Scene(_) => 1,
             Self::Usage(_) => 2,
             Self::Fault(_) => 3,
-            Self::Interrupted { .. } => 130,
+            Self::Interrupted { .. } | Self::Cancelled => 130,
         }
     }
 

@@ -4,12 +4,14 @@ mod check;
 mod edit;
 mod error;
 mod input;
+mod interrupt;
 mod method;
 mod number;
 mod output;
 #[cfg(feature = "render")]
 mod render;
 mod run;
+mod study;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -23,6 +25,7 @@ pub use input::{Examined, examine};
 #[cfg(feature = "render")]
 pub use render::RenderArgs;
 pub use run::RunArgs;
+pub use study::StudyArgs;
 
 /// Design 3D rigid body scenes, step their simulation event by event, and see how accurate it is.
 #[derive(Debug, Parser)]
@@ -52,6 +55,7 @@ pub enum Verb {
     Check(CheckArgs),
     #[cfg(feature = "render")]
     Render(RenderArgs),
+    Study(StudyArgs),
 }
 
 impl Verb {
@@ -62,6 +66,7 @@ impl Verb {
             Self::Check(args) => check::check(args),
             #[cfg(feature = "render")]
             Self::Render(args) => render::render(args),
+            Self::Study(args) => study::study(args),
         }
     }
 }

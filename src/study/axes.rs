@@ -13,8 +13,8 @@ pub struct Axis {
     /// Empty where dimensionless.
     pub unit: &'static str,
     pub meaning: &'static str,
-    /// Whether it can be drawn: it is an error, the smaller the better.
-    pub is_error: bool,
+    /// Whether it has a diagram of its own, over the wall time.
+    pub is_drawn: bool,
     pub get: fn(&Point) -> Option<f64>,
 }
 
@@ -26,7 +26,7 @@ pub const AXES: &[Axis] = &[
         column: "time/s",
         unit: "s",
         meaning: "Median of the timings.",
-        is_error: false,
+        is_drawn: false,
         get: |point| point.wall_per_s,
     },
     Axis {
@@ -35,7 +35,7 @@ pub const AXES: &[Axis] = &[
         column: "position",
         unit: "m",
         meaning: "Largest distance of any body from the reference at a sample up to the horizon.",
-        is_error: true,
+        is_drawn: true,
         get: |point| point.position_error,
     },
     Axis {
@@ -44,7 +44,7 @@ pub const AXES: &[Axis] = &[
         column: "velocity",
         unit: "m/s",
         meaning: "Largest difference of velocity from the reference at a sample up to the horizon.",
-        is_error: true,
+        is_drawn: false,
         get: |point| point.velocity_error,
     },
     Axis {
@@ -53,7 +53,7 @@ pub const AXES: &[Axis] = &[
         column: "energy",
         unit: "",
         meaning: "Largest change of energy at a sample that no loss accounts for, over the scene's energy.",
-        is_error: true,
+        is_drawn: true,
         get: |point| point.energy_residual,
     },
     Axis {
@@ -62,7 +62,7 @@ pub const AXES: &[Axis] = &[
         column: "momentum",
         unit: "",
         meaning: "Largest change of momentum at a sample that no impulse accounts for, over the scene's.",
-        is_error: true,
+        is_drawn: true,
         get: |point| Some(point.momentum_residual),
     },
     Axis {
@@ -71,7 +71,7 @@ pub const AXES: &[Axis] = &[
         column: "overlap",
         unit: "m",
         meaning: "Deepest overlap of any two bodies at a sample, an event or the end of a Δt.",
-        is_error: true,
+        is_drawn: true,
         get: |point| Some(point.worst_overlap),
     },
     Axis {
@@ -81,7 +81,16 @@ pub const AXES: &[Axis] = &[
         unit: "",
         meaning: "Impacts of the reference that the run lacks, and impacts that only the run has, up to the \
                   horizon.",
-        is_error: true,
+        is_drawn: true,
         get: |point| Some((point.missed? + point.wrong?) as f64),
+    },
+    Axis {
+        id: "follows_until_s",
+        title: "Follows until, higher is better",
+        column: "follows until",
+        unit: "s",
+        meaning: "Last sample up to which every position is within the agreement of the reference.",
+        is_drawn: true,
+        get: |point| point.follows_until,
     },
 ];

@@ -1,50 +1,8 @@
 //! What is put on trial: a method with its Δt or its tolerance.
 
-use serde::Serialize;
-
 use super::text::{seconds, short};
 use crate::scene::Scene;
-use crate::sim::{CompileError, Simulation};
-
-/// How a simulation is stepped.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Method {
-    /// Event by event; Δt only samples.
-    Exact,
-}
-
-impl Method {
-    pub const ALL: [Self; 1] = [Self::Exact];
-
-    /// The name used in files and on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Exact => "exact",
-        }
-    }
-
-    /// sRGB, told apart by anyone (Okabe & Ito 2008); the marker says the same without colour.
-    pub fn color(self) -> [u8; 3] {
-        match self {
-            Self::Exact => [0, 114, 178],
-        }
-    }
-
-    /// The shape in diagrams.
-    pub fn marker(self) -> Marker {
-        match self {
-            Self::Exact => Marker::Diamond,
-        }
-    }
-
-    /// Whether the result depends on Δt, so that it is a curve.
-    pub fn depends_on_dt(self) -> bool {
-        match self {
-            Self::Exact => false,
-        }
-    }
-}
+use crate::sim::{CompileError, Method, Simulation};
 
 /// The shape that marks a method in diagrams.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,6 +23,16 @@ impl Marker {
     }
 }
 
+/// How a method looks in diagrams: an sRGB colour that anyone can tell from the others (Okabe & Ito 2008),
+/// and a shape that says the same without colour.
+pub fn look_of(method: Method) -> ([u8; 3], Marker) {
+    match method {
+        Method::Exact => ([0, 114, 178], Marker::Diamond),
+        Method::Thesis => ([213, 94, 0], Marker::Triangle),
+        Method::Fixed => ([0, 158, 115], Marker::Square),
+    }
+}
+
 /// One run of a study.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Candidate {
@@ -82,7 +50,7 @@ impl Candidate {
         if let Some(tolerance) = self.tolerance {
             scene.params.field_tolerance = tolerance;
         }
-        Simulation::new(&scene)
+        Simulation::with_method(&scene, self.method)
     }
 
     /// The Δt of each step and how many of them lie between two samples about `sample_dt` apart.

@@ -8,13 +8,14 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use std::ops::Range;
 
 use super::scale::{Scale, series_of};
-use super::{AXES, Axis, Method, Report, seconds, short};
+use super::{AXES, Axis, Report, look_of, seconds, short};
+use crate::sim::Method;
 
 /// Width and height, px.
-const SIZE: (u32, u32) = (1500, 1000);
+const SIZE: (u32, u32) = (1500, 1020);
 const COLUMNS: usize = 3;
 const TITLE_HEIGHT: u32 = 92;
-const LEGEND_HEIGHT: u32 = 44;
+const LEGEND_HEIGHT: u32 = 66;
 const FONT: &str = "sans-serif";
 const INK: RGBColor = RGBColor(40, 40, 40);
 const FAINT: RGBColor = RGBColor(225, 225, 225);
@@ -51,9 +52,9 @@ fn draw(report: &Report, text: &mut String) -> Drawn {
     let (top, rest) = root.split_vertically(TITLE_HEIGHT);
     let (middle, bottom) = rest.split_vertically(SIZE.1 - TITLE_HEIGHT - LEGEND_HEIGHT);
     heading(&top, report)?;
-    let errors: Vec<&Axis> = AXES.iter().filter(|axis| axis.is_error).collect();
-    let areas = middle.split_evenly((errors.len().div_ceil(COLUMNS), COLUMNS));
-    for (axis, area) in errors.into_iter().zip(&areas) {
+    let drawn: Vec<&Axis> = AXES.iter().filter(|axis| axis.is_drawn).collect();
+    let areas = middle.split_evenly((drawn.len().div_ceil(COLUMNS), COLUMNS));
+    for (axis, area) in drawn.into_iter().zip(&areas) {
         diagram(area, report, axis)?;
     }
     legend(&bottom, report)?;
@@ -86,11 +87,11 @@ impl Ranged for Decades {
 }
 
 fn heading(area: &Area, report: &Report) -> Drawn {
-    let title = (FONT, 24).into_font().style(FontStyle::Bold).color(&INK);
+    let title = (FONT, 30).into_font().style(FontStyle::Bold).color(&INK);
     area.draw_text(&report.title(), &title, (24, 14))?;
-    let small = (FONT, 14).into_font().color(&INK);
-    for (nth, line) in wrapped(&report.horizon_statement(), 190).iter().enumerate() {
-        area.draw_text(line, &small, (24, 48 + 19 * nth as i32))?;
+    let small = (FONT, 19).into_font().color(&INK);
+    for (nth, line) in wrapped(&report.horizon_statement(), 175).iter().enumerate() {
+        area.draw_text(line, &small, (24, 48 + 21 * nth as i32))?;
     }
     Ok(())
 }
@@ -108,26 +109,26 @@ fn wrapped(text: &str, width: usize) -> Vec<String> {
 }
 
 fn diagram(area: &Area, report: &Report, axis: &Axis) -> Drawn {
-    let caption = (FONT, 17).into_font().style(FontStyle::Bold).color(&INK);
+    let caption = (FONT, 21).into_font().style(FontStyle::Bold).color(&INK);
     let unit = if axis.unit.is_empty() { String::new() } else { format!(" [{}]", axis.unit) };
     let heading = format!("{}{unit}", axis.title);
     let times = Scale::of(report.points.iter().filter_map(|point| point.wall_per_s));
     let errors = Scale::of(report.points.iter().filter_map(axis.get));
     let (Some(times), Some(errors)) = (times, errors) else {
         area.draw_text(&heading, &caption, (70, 8))?;
-        return area.draw_text("n/a for this scene", &(FONT, 15).into_font().color(&INK), (70, 40));
+        return area.draw_text("n/a for this scene", &(FONT, 19).into_font().color(&INK), (70, 40));
     };
     let mut chart = ChartBuilder::on(area)
         .caption(&heading, caption)
         .margin(12)
         .margin_right(26)
-        .x_label_area_size(44)
-        .y_label_area_size(58)
+        .x_label_area_size(48)
+        .y_label_area_size(62)
         .build_cartesian_2d(
             Decades { scale: times, ticks: times.ticks(6) },
             Decades { scale: errors, ticks: errors.ticks(9) },
         )?;
-    let ink = (FONT, 13).into_font().color(&INK);
+    let ink = (FONT, 16.5).into_font().color(&INK);
     chart
         .configure_mesh()
         .light_line_style(TRANSPARENT)
@@ -150,13 +151,22 @@ fn diagram(area: &Area, report: &Report, axis: &Axis) -> Drawn {
         }
         // The ends of a curve tell which way it runs.
         for nth in ends(series.len()) {
-            let anchor = Pos::new(HPos::Left, VPos::Bottom);
-            let style = (FONT, 11).into_font().color(&color).pos(anchor);
-            let label = Text::new(series[nth].label.clone(), (6, -5), style);
+            let (vertical, down) = label_side(method);
+            let (side, right) = if nth == 0 && at.len() > 1 { (HPos::Right, -7) } else { (HPos::Left, 7) };
+            let style = (FONT, 15).into_font().color(&color).pos(Pos::new(side, vertical));
+            let label = Text::new(series[nth].label.clone(), (right, down), style);
             chart.plotting_area().draw(&(EmptyElement::at(at[nth]) + label))?;
         }
     }
     Ok(())
+}
+
+/// Labels of curves that run into each other stand on different sides of their points.
+fn label_side(method: Method) -> (VPos, i32) {
+    match method {
+        Method::Exact | Method::Thesis => (VPos::Bottom, -5),
+        Method::Fixed => (VPos::Top, 5),
+    }
 }
 
 fn ends(length: usize) -> Vec<usize> {
@@ -169,31 +179,31 @@ fn ends(length: usize) -> Vec<usize> {
 
 /// Told apart by anyone (Okabe & Ito 2008), and each with a shape of its own besides.
 fn color(method: Method) -> RGBColor {
-    let [r, g, b] = method.color();
+    let ([r, g, b], _) = look_of(method);
     RGBColor(r, g, b)
 }
 
 /// A filled shape around the origin, px.
 fn marker(method: Method) -> Polygon<(i32, i32)> {
-    let corners = method.marker().corners().iter();
+    let corners = look_of(method).1.corners().iter();
     let place = |unit: f64| libm::round(unit * 6.0) as i32;
     Polygon::new(corners.map(|[x, y]| (place(*x), -place(*y))).collect::<Vec<_>>(), color(method).filled())
 }
 
 fn legend(area: &Area, report: &Report) -> Drawn {
     let mut x = 70;
-    let text = (FONT, 15).into_font().color(&INK).pos(Pos::new(HPos::Left, VPos::Center));
+    let text = (FONT, 19).into_font().color(&INK).pos(Pos::new(HPos::Left, VPos::Center));
     for method in Method::ALL.into_iter().filter(|m| report.points.iter().any(|p| p.method == *m)) {
         let line = PathElement::new(vec![(x, 18), (x + 40, 18)], color(method).stroke_width(2));
         area.draw(&line)?;
         area.draw(&(EmptyElement::at((x + 20, 18)) + marker(method)))?;
         let label = format!("{}: {}", method.name(), axis_of(report, method));
         area.draw_text(&label, &text, (x + 50, 18))?;
-        x += 50 + 8 * label.chars().count() as i32 + 40;
+        x += 50 + 9 * label.chars().count() as i32 + 40;
     }
-    let note = "Lower left is better; the row 0 holds what is exactly zero.";
-    let right = (FONT, 13).into_font().color(&INK).pos(Pos::new(HPos::Right, VPos::Center));
-    area.draw_text(note, &right, (SIZE.0 as i32 - 30, 18))
+    let note = "Towards the lower left is better, unless a title says otherwise. The row 0 holds what is exactly zero.";
+    let small = (FONT, 16.5).into_font().color(&INK).pos(Pos::new(HPos::Left, VPos::Center));
+    area.draw_text(note, &small, (70, 46))
 }
 
 /// What runs along a method's curve.

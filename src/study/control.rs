@@ -17,12 +17,14 @@ pub struct Control<'a> {
     report: &'a mut dyn FnMut(&Progress),
     /// The stage that is going on: its name, where it starts and which share of the whole it is.
     stage: (String, f64, f64),
+    /// Sums of shares round; a bar must not go back for that.
+    shown: f64,
 }
 
 impl<'a> Control<'a> {
     /// `cancel` ends the study soon after it becomes true; `report` is called often, from the study's thread.
     pub fn new(cancel: &'a AtomicBool, report: &'a mut dyn FnMut(&Progress)) -> Self {
-        Self { cancel, report, stage: (String::new(), 0.0, 1.0) }
+        Self { cancel, report, stage: (String::new(), 0.0, 1.0), shown: 0.0 }
     }
 
     /// Whether to end now.
@@ -38,6 +40,7 @@ impl<'a> Control<'a> {
     /// `part` of the stage is done.
     pub(super) fn show(&mut self, part: f64) {
         let (what, start, share) = &self.stage;
-        (self.report)(&Progress { part: start + share * part.clamp(0.0, 1.0), what: what.clone() });
+        self.shown = (start + share * part.clamp(0.0, 1.0)).clamp(self.shown, 1.0);
+        (self.report)(&Progress { part: self.shown, what: what.clone() });
     }
 }

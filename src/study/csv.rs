@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use super::{AXES, Point, Report, Stop};
 
 /// The columns that [`AXES`] does not have.
-const MORE: &str = "wall_s_per_s_min,wall_s_per_s_max,impacts,missed,wrong,first_difference_s,follows_until_s,\
-                    reached_s,stopped,horizon_s";
+const MORE: &str =
+    "wall_s_per_s_min,wall_s_per_s_max,impacts,missed,wrong,first_difference_s,reached_s,stopped,horizon_s";
 
 /// The whole file, lines ended by a line feed, a decimal point, comma separated.
 pub fn csv(report: &Report) -> String {
@@ -34,7 +34,6 @@ fn row(text: &mut String, point: &Point, horizon: f64) {
         count(point.missed),
         count(point.wrong),
         number(point.first_difference),
-        number(point.follows_until),
         number(Some(point.reached)),
         stopped(point.stopped.as_ref()),
         number(Some(horizon)),

@@ -27,7 +27,7 @@ mod table;
 mod text;
 
 pub use axes::{AXES, Axis};
-pub use candidate::{Candidate, Marker, Method};
+pub use candidate::{Candidate, Marker, look_of};
 pub use chart::{ChartError, svg};
 pub use control::{Control, Progress};
 pub use csv::csv;

@@ -1,8 +1,9 @@
 //! What a study answers, as plain data.
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
-use super::{Method, Settings};
+use super::Settings;
+use crate::sim::Method;
 
 /// The answer of a study.
 #[derive(Clone, Debug, Serialize)]
@@ -59,6 +60,7 @@ pub enum HorizonCause {
 /// One run: what it costs and how wrong it is.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Point {
+    #[serde(serialize_with = "name_of")]
     pub method: Method,
     /// s; `None` where the result does not depend on it.
     pub dt: Option<f64>,
@@ -104,6 +106,10 @@ pub enum Stop {
     Fault(String),
 }
 
+fn name_of<S: Serializer>(method: &Method, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(method.name())
+}
+
 impl Report {
     pub(super) fn new(scene: String, settings: &Settings) -> Self {
         Self {
@@ -133,7 +139,9 @@ impl Report {
     pub fn horizon_statement(&self) -> String {
         let Horizon { time, cause, error, impacts } = &self.horizon;
         let (until, bound) = (format!("{time:.3} s"), super::short(self.trusted_error));
-        let checked = format!("{impacts} impacts, own error estimate {} m there", super::short(*error));
+        let plural = if *impacts == 1 { "" } else { "s" };
+        let checked =
+            format!("{impacts} impact{plural}, own error estimate {} m there", super::short(*error));
         match cause {
             HorizonCause::WholeRun => {
                 format!("Compared with the independent reference over the whole {until} ({checked}).")

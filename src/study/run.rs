@@ -1,11 +1,9 @@
 //! A whole study: the reference, every run compared with it, then every run timed.
 
 use super::timing::{starting, summarise, time_run};
-use super::{
-    Candidate, Control, HorizonCause, Limits, Method, Report, Settings, SettingsError, Truth, measure,
-};
+use super::{Candidate, Control, HorizonCause, Limits, Report, Settings, SettingsError, Truth, measure};
 use crate::scene::Scene;
-use crate::sim::{CompileError, Simulation};
+use crate::sim::{CompileError, Method, Simulation};
 
 /// Why there is no report at all.
 #[derive(Clone, Debug, thiserror::Error)]

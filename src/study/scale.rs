@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use super::{Axis, Method, Report, seconds, short};
+use super::{Axis, Report, seconds, short};
+use crate::sim::Method;
 
 /// A logarithmic scale over whole decades. Places on it are decimal logarithms.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! What a study is asked: every knob with its unit, default and reason. [`KNOBS`] is the one table that
 //! the help and the panel show.
 
-use super::Method;
+use crate::sim::Method;
 
 /// The knobs of a study.
 #[derive(Clone, Debug, PartialEq)]

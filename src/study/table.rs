@@ -1,6 +1,6 @@
 //! The report as an aligned table for people.
 
-use super::{AXES, Point, Report, Stop, seconds, short};
+use super::{AXES, Axis, Point, Report, Stop, seconds, short};
 
 /// The statement about the horizon and the table, with units, lines ended by a line feed.
 pub fn table(report: &Report) -> String {
@@ -13,7 +13,7 @@ pub fn table(report: &Report) -> String {
     }
     text += "\n";
     let mut rows = heads();
-    rows.extend(report.points.iter().map(|point| cells(point)));
+    rows.extend(report.points.iter().map(cells));
     let widths: Vec<usize> = (0..rows[0].len())
         .map(|column| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0))
         .collect();
@@ -38,14 +38,19 @@ pub fn table(report: &Report) -> String {
 /// Names of the columns, and their units.
 fn heads() -> Vec<Vec<String>> {
     let own = [("method", ""), ("Δt", ""), ("tolerance", "")];
-    let end = [("impacts", ""), ("missed", ""), ("wrong", ""), ("follows until", "s")];
-    let axes = AXES.iter().filter(|axis| axis.id != "missed_or_wrong").map(|axis| (axis.column, axis.unit));
+    let end = [("impacts", ""), ("missed", ""), ("wrong", "")];
+    let axes = columns().map(|axis| (axis.column, axis.unit));
     let all: Vec<_> = own.into_iter().chain(axes).chain(end).collect();
     let unit = |unit: &str| if unit.is_empty() { String::new() } else { format!("[{unit}]") };
     vec![
         all.iter().map(|(name, _)| (*name).to_owned()).collect(),
         all.iter().map(|(_, of)| unit(of)).collect(),
     ]
+}
+
+/// The measures with a column; missed and wrong impacts have one each.
+fn columns() -> impl Iterator<Item = &'static Axis> {
+    AXES.iter().filter(|axis| axis.id != "missed_or_wrong")
 }
 
 fn cells(point: &Point) -> Vec<String> {
@@ -56,14 +61,8 @@ fn cells(point: &Point) -> Vec<String> {
         point.dt.map_or("–".into(), seconds),
         point.tolerance.map_or("–".into(), short),
     ];
-    let axes = AXES.iter().filter(|axis| axis.id != "missed_or_wrong");
-    cells.extend(axes.map(|axis| number((axis.get)(point))));
-    cells.extend([
-        point.impacts.to_string(),
-        count(point.missed),
-        count(point.wrong),
-        number(point.follows_until),
-    ]);
+    cells.extend(columns().map(|axis| number((axis.get)(point))));
+    cells.extend([point.impacts.to_string(), count(point.missed), count(point.wrong)]);
     cells
 }
 

@@ -93,6 +93,8 @@ mod sim_roots;
 mod sim_thesis;
 // The reference against closed forms and itself, and where it says that it can't be trusted.
 mod study_reference;
+// Whole studies: exact comes out exact, wrong laws are found out, horizon, cancelling, files.
+mod study_runs;
 // Cameras: rays against projections, framing, zoom to the cursor, the six axis views.
 mod view_camera;
 // Dragging and snapping, round lengths and short numbers, trails.

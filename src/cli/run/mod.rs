@@ -2,7 +2,6 @@
 
 mod drive;
 mod final_scene;
-mod interrupt;
 mod progress;
 mod recorder;
 mod rows;
@@ -19,7 +18,7 @@ use self::recorder::Recorder;
 use self::samples::SampleGrid;
 use self::summary::Summary;
 use super::output::{self, is_stdout};
-use super::{CliError, input, method, number};
+use super::{CliError, input, interrupt, method, number};
 use crate::sim::{EventKind, Method};
 
 /// Simulate a scene from t = 0 and write states, events and a summary

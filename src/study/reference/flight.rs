@@ -34,6 +34,11 @@ impl Sum {
         Self { value, rest: DVec3::ZERO }
     }
 
+    /// `self − other`, with the rests.
+    pub(super) fn minus(self, other: Self) -> DVec3 {
+        (self.value - other.value) + (self.rest - other.rest)
+    }
+
     fn plus(self, change: DVec3) -> Self {
         let small = change + self.rest;
         let value = self.value + small;

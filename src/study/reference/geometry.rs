@@ -1,5 +1,6 @@
 //! Distances between surfaces, from the closest point.
 
+use super::flight::Sum;
 use crate::scene::{Body, Motion, Shape};
 use glam::{DMat3, DVec3, dvec3};
 
@@ -36,10 +37,15 @@ impl Surface {
 
     /// The gap to a sphere.
     pub fn gap(&self, point: DVec3, radius: f64) -> Gap {
+        self.gap_of(Sum::new(point), radius)
+    }
+
+    /// The gap to a sphere whose centre is known better than an f64 holds it.
+    pub(super) fn gap_of(&self, point: Sum, radius: f64) -> Gap {
         match *self {
-            Self::Sphere { centre, radius: own } => sphere_gap(point, radius, centre, own),
+            Self::Sphere { centre, radius: own } => gap_along(Sum::new(centre).minus(point), radius + own),
             Self::Plate { centre, world_from_local, half_x, half_y } => {
-                let local = world_from_local.transpose() * (point - centre);
+                let local = world_from_local.transpose() * point.minus(Sum::new(centre));
                 let nearest = dvec3(local.x.clamp(-half_x, half_x), local.y.clamp(-half_y, half_y), 0.0);
                 let offset = nearest - local;
                 let towards = world_from_local * offset.normalize_or_zero();
@@ -58,8 +64,12 @@ impl Surface {
 
 /// The gap between two spheres, seen from the first.
 pub fn sphere_gap(a: DVec3, radius_a: f64, b: DVec3, radius_b: f64) -> Gap {
-    let offset = b - a;
-    Gap { distance: offset.length() - (radius_a + radius_b), towards: offset.normalize_or_zero() }
+    gap_along(b - a, radius_a + radius_b)
+}
+
+/// The gap of two spheres whose centres are `offset` apart.
+pub(super) fn gap_along(offset: DVec3, radii: f64) -> Gap {
+    Gap { distance: offset.length() - radii, towards: offset.normalize_or_zero() }
 }
 
 /// Whether a body moves, and its radius.

@@ -1,7 +1,7 @@
 //! The naive simulator: small steps, every pair in every step, bisection where surfaces cross.
 
 use super::flight::{Ball, Sum};
-use super::geometry::{Gap, Surface, dynamic_radius, sphere_gap};
+use super::geometry::{Gap, Surface, dynamic_radius, gap_along};
 use super::{End, Settings, Unsupported};
 use crate::scene::{Body, Force, Motion, Scene};
 use glam::DVec3;
@@ -215,12 +215,12 @@ impl Reference {
         let (gap, velocity) = match pair {
             Pair::Balls(i, j) => {
                 let (a, b) = (&balls[i], &balls[j]);
-                let gap = sphere_gap(a.position.value, a.radius, b.position.value, b.radius);
+                let gap = gap_along(b.position.minus(a.position), a.radius + b.radius);
                 (gap, b.velocity.value - a.velocity.value)
             }
             Pair::Static(i, j) => {
                 let ball = &balls[i];
-                (self.statics[j].surface.gap(ball.position.value, ball.radius), -ball.velocity.value)
+                (self.statics[j].surface.gap_of(ball.position, ball.radius), -ball.velocity.value)
             }
         };
         (gap, velocity.dot(gap.towards))

@@ -6,6 +6,7 @@ mod documents;
 mod outputs;
 mod run;
 mod streams;
+mod study;
 mod usage;
 
 use std::path::{Path, PathBuf};

@@ -1,0 +1,226 @@
+//! `polyscene study`: speed against error of every method, as a table, CSV, SVG and JSON.
+
+use std::io::IsTerminal as _;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::output::{self, is_stdout};
+use super::{CliError, input, interrupt, method, number};
+use crate::scene::check_writable;
+use crate::sim::Method;
+use crate::study::{self, AXES, Control, KNOBS, Report, Settings, StudyError};
+
+/// Compare the speed and the errors of every method on a scene
+///
+/// Every method runs over every Δt (`exact` has no such axis: it runs over field tolerances where the scene
+/// has fields) and is compared with an independent reference: another integrator, another root finder, all
+/// pairs. Chaotic scenes are compared up to the horizon where the reference's own error estimate reaches
+/// --trusted-error, and by invariants beyond. Ctrl-C ends a study and reports what is done so far.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES, after_long_help = long_help())]
+pub struct StudyArgs {
+    /// Scene file; `-` is standard input
+    scene: PathBuf,
+
+    /// Model time of every run, in seconds; at most 1e9
+    #[arg(long, value_name = "S", value_parser = number::seconds, allow_negative_numbers = true, default_value = "10")]
+    until: f64,
+
+    /// How to step, separated by commas
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = method::parser(), default_value = "exact,thesis,fixed")]
+    methods: Vec<Method>,
+
+    /// Δt of the methods that depend on it, in seconds, separated by commas
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = number::seconds, allow_negative_numbers = true, default_value = "1/15,1/30,1/60,1/120,1/240,1/480,1/960")]
+    dt: Vec<f64>,
+
+    /// Field tolerances of exact besides the scene's own, separated by commas
+    #[arg(
+        long,
+        value_name = "LIST",
+        value_delimiter = ',',
+        allow_negative_numbers = true,
+        default_value = "1e-3,1e-5,1e-7,1e-9,1e-11"
+    )]
+    tolerances: Vec<f64>,
+
+    /// Timings of each run; the median counts
+    #[arg(long, value_name = "N", default_value_t = Settings::default().repeat)]
+    repeat: u32,
+
+    /// Samples of a run at which it is compared
+    #[arg(long, value_name = "N", default_value_t = Settings::default().samples)]
+    samples: u32,
+
+    /// Error estimate of the reference at which comparing ends, in metres
+    #[arg(long, value_name = "M", allow_negative_numbers = true, default_value_t = Settings::default().trusted_error)]
+    trusted_error: f64,
+
+    /// Position error up to which a run follows the reference, in metres
+    #[arg(long, value_name = "M", allow_negative_numbers = true, default_value_t = Settings::default().agreement)]
+    agreement: f64,
+
+    /// How far apart in time, besides one Δt, the same event may come, in seconds
+    #[arg(long, value_name = "S", value_parser = number::seconds, allow_negative_numbers = true, default_value = "0.001")]
+    event_window: f64,
+
+    /// Longest wall time of the reference, in seconds
+    #[arg(long, value_name = "S", value_parser = number::seconds, allow_negative_numbers = true, default_value = "30")]
+    reference_limit: f64,
+
+    /// Longest wall time of one run, in seconds
+    #[arg(long, value_name = "S", value_parser = number::seconds, allow_negative_numbers = true, default_value = "20")]
+    run_limit: f64,
+
+    /// Write the figures as CSV to this file; `-` is standard output
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+
+    /// Write the work-precision diagrams as SVG to this file; `-` is standard output
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+
+    /// Print the whole report as one JSON object to standard output
+    #[arg(long)]
+    json: bool,
+}
+
+pub(super) fn study(args: &StudyArgs) -> Result<(), CliError> {
+    let settings = args.settings();
+    settings.check().map_err(|error| CliError::Usage(format!("--{error}")))?;
+    refuse_clashing_outputs(args)?;
+    let name = input::display_name(&args.scene);
+    let examined = input::open(&args.scene, Method::Exact)?;
+    for line in examined.lines(&name) {
+        super::say(line);
+    }
+    let (Some(scene), Some(_)) = (examined.document.scene(), &examined.simulation) else {
+        let errors = examined.error_count();
+        return Err(CliError::Scene(format!("{name} can't be studied: {errors} error(s)")));
+    };
+    for (_, path) in args.outputs().filter(|(_, path)| !is_stdout(path)) {
+        check_writable(path).map_err(|error| CliError::unwritable(path.display(), &error))?;
+    }
+
+    let bar = bar();
+    let mut show = |progress: &study::Progress| {
+        bar.set_position((progress.part * PARTS) as u64);
+        bar.set_message(progress.what.clone());
+    };
+    let mut control = Control::new(interrupt::on_interrupt(), &mut show);
+    let outcome = study::run(scene, &title_of(&args.scene), &settings, &mut control);
+    bar.finish_and_clear();
+    let report = outcome.map_err(|error| match error {
+        StudyError::Settings(error) => CliError::Usage(format!("--{error}")),
+        StudyError::Scene(error) => CliError::Scene(error.to_string()),
+    })?;
+    write(args, &report)?;
+    if report.cancelled { Err(CliError::Cancelled) } else { Ok(()) }
+}
+
+/// What to call the scene in the report: the file's name without its folder.
+fn title_of(path: &Path) -> String {
+    if is_stdout(path) {
+        return "Standard input".into();
+    }
+    path.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned())
+}
+
+/// The bar counts thousandths of the study.
+const PARTS: f64 = 1000.0;
+
+fn bar() -> ProgressBar {
+    if !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let style = ProgressStyle::with_template("{bar:32} {percent:>3} %  {msg}");
+    ProgressBar::new(PARTS as u64).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}
+
+fn write(args: &StudyArgs, report: &Report) -> Result<(), CliError> {
+    if let Some(path) = &args.csv {
+        write_text(path, &study::csv(report))?;
+    }
+    if let Some(path) = &args.svg {
+        let picture = study::svg(report).map_err(|error| CliError::Usage(error.to_string()))?;
+        write_text(path, &picture)?;
+    }
+    if args.json {
+        let text = serde_json::to_string(report);
+        let text = text.map_err(|error| CliError::unwritable("--json", &error.into()))?;
+        output::print(format!("{text}\n").as_bytes())
+    } else if args.outputs().any(|(_, path)| is_stdout(path)) {
+        Ok(())
+    } else {
+        output::print(study::table(report).as_bytes())
+    }
+}
+
+fn write_text(path: &Path, text: &str) -> Result<(), CliError> {
+    if is_stdout(path) {
+        return output::print(text.as_bytes());
+    }
+    std::fs::write(path, text).map_err(|error| CliError::unwritable(path.display(), &error))
+}
+
+impl StudyArgs {
+    fn settings(&self) -> Settings {
+        Settings {
+            until: self.until,
+            methods: self.methods.clone(),
+            dts: self.dt.clone(),
+            tolerances: self.tolerances.clone(),
+            repeat: self.repeat,
+            samples: self.samples,
+            trusted_error: self.trusted_error,
+            agreement: self.agreement,
+            event_window: self.event_window,
+            reference_limit: self.reference_limit,
+            run_limit: self.run_limit,
+        }
+    }
+
+    /// The output files with their options' names.
+    fn outputs(&self) -> impl Iterator<Item = (&'static str, &Path)> {
+        [("--csv", &self.csv), ("--svg", &self.svg)]
+            .into_iter()
+            .filter_map(|(option, path)| Some((option, path.as_deref()?)))
+    }
+}
+
+/// Two outputs in one place, or an output over the scene itself, would spoil both.
+fn refuse_clashing_outputs(args: &StudyArgs) -> Result<(), CliError> {
+    let json = args.json.then_some(("--json", Path::new("-")));
+    let all: Vec<_> = json.into_iter().chain(args.outputs()).collect();
+    for (nth, (option, path)) in all.iter().enumerate() {
+        let place = output::place(path);
+        if let Some((other, _)) = all[..nth].iter().find(|(_, path)| output::place(path) == place) {
+            let place = if is_stdout(path) { "standard output".into() } else { path.display().to_string() };
+            return Err(CliError::Usage(format!("{other} and {option} can't both write to {place}")));
+        }
+        if output::overwrites(path, &args.scene) {
+            return Err(CliError::Usage(format!("{option} would overwrite the scene {}", path.display())));
+        }
+    }
+    Ok(())
+}
+
+const EXAMPLES: &str = "Examples:\n  \
+     polyscene study scene.xml\n  \
+     polyscene study scene.xml --until 20 --svg diagrams.svg --csv figures.csv\n  \
+     polyscene study scene.xml --methods exact,fixed --dt 1/60,1/240,1/1000 --repeat 9 --json";
+
+fn long_help() -> String {
+    let measures: String =
+        AXES.iter().map(|axis| format!("  {:<14} {}\n", axis.column, axis.meaning)).collect();
+    let knobs: String = KNOBS
+        .iter()
+        .map(|knob| {
+            let unit = if knob.unit.is_empty() { String::new() } else { format!(" [{}]", knob.unit) };
+            format!("  --{}{unit}\n      {}\n", knob.name, knob.reason)
+        })
+        .collect();
+    format!("Columns of the table:\n{measures}\nWhy the defaults are what they are:\n{knobs}\n{EXAMPLES}")
+}
