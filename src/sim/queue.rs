@@ -66,20 +66,37 @@ impl PartialOrd for Entry {
     }
 }
 
-/// A binary heap whose stale entries are dropped when they come up, or all at once when they are many.
+/// What is near in time lies in a heap, the rest in no order at all (the two ends of a ladder queue: Tang, Goh
+/// & Thng 2005). Most predictions are overtaken by an earlier impact of one of their bodies while they are far
+/// off, and so are never sorted; and the heap is small enough for the processor's fast memory.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Queue {
-    heap: BinaryHeap<Entry>,
+    near: BinaryHeap<Entry>,
+    far: Vec<Entry>,
+    /// The earliest of `far` when it was made, or earlier: what comes before it belongs to `near`. `None`
+    /// while `far` is empty.
+    horizon: Option<Entry>,
     /// Size at which stale entries are swept out.
     sweep_at: usize,
+    /// Size of `near` at which some of it is sent to `far`.
+    spill_at: usize,
 }
 
-/// Below this size sweeping is not worth its cost.
+/// Below this size the order is left to the heap alone.
 const SMALLEST_SWEEP: usize = 1024;
+
+/// Of this many entries the earliest goes to the heap.
+const SHARE: usize = 32;
 
 impl Queue {
     pub fn push(&mut self, predicted: Predicted) {
-        self.heap.push(Entry(predicted));
+        let entry = Entry(predicted);
+        // Entries are ordered in reverse: the later is the lesser.
+        if self.horizon.is_some_and(|horizon| entry <= horizon) {
+            self.far.push(entry);
+        } else {
+            self.near.push(entry);
+        }
     }
 
     /// The earliest prediction that still holds, if it is not after `until`.
@@ -89,26 +106,48 @@ impl Queue {
         dropped: &mut u64,
         mut holds: impl FnMut(&Predicted) -> bool,
     ) -> Option<Predicted> {
-        while let Some(Entry(next)) = self.heap.peek().copied() {
+        loop {
+            let Some(Entry(next)) = self.near.peek().copied() else {
+                if self.far.is_empty() {
+                    return None;
+                }
+                self.divide(&mut holds);
+                continue;
+            };
             if next.time > until {
                 return None;
             }
-            self.heap.pop();
+            self.near.pop();
             if holds(&next) {
                 return Some(next);
             }
             *dropped += 1;
         }
-        None
     }
 
     /// Sweeps stale entries out when there may be more of them than of good ones.
-    pub fn tidy(&mut self, mut holds: impl FnMut(&Predicted) -> bool) {
-        if self.heap.len() < self.sweep_at.max(SMALLEST_SWEEP) {
-            return;
+    pub fn tidy(&mut self, holds: impl FnMut(&Predicted) -> bool) {
+        if self.len() >= self.sweep_at.max(SMALLEST_SWEEP)
+            || self.near.len() >= self.spill_at.max(SMALLEST_SWEEP)
+        {
+            self.divide(holds);
         }
-        self.heap.retain(|entry| holds(&entry.0));
-        self.sweep_at = 2 * self.heap.len();
+    }
+
+    fn len(&self) -> usize {
+        self.near.len() + self.far.len()
+    }
+
+    /// Drops all stale entries and divides the others anew into near and far.
+    fn divide(&mut self, mut holds: impl FnMut(&Predicted) -> bool) {
+        self.far.extend(self.near.drain());
+        self.far.retain(|entry| holds(&entry.0));
+        let near = (self.far.len() / SHARE).max(SMALLEST_SWEEP / 4).min(self.far.len());
+        let later = self.far.len() - near;
+        self.horizon = (later > 0).then(|| *self.far.select_nth_unstable(later - 1).1);
+        self.near.extend(self.far.drain(later..));
+        self.sweep_at = 2 * self.len();
+        self.spill_at = 4 * near;
     }
 }
 
@@ -181,6 +220,6 @@ mod tests {
             queue.push(predicted(1e6, 0, stamp));
             queue.tidy(|p| p.stamp_a == stamp);
         }
-        assert!(queue.heap.len() <= 2 * SMALLEST_SWEEP, "{}", queue.heap.len());
+        assert!(queue.len() <= 2 * SMALLEST_SWEEP, "{}", queue.len());
     }
 }
