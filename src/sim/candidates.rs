@@ -28,10 +28,10 @@ impl CandidateSet {
 
 /// The candidate sets of the dynamic bodies `seeds`. `tiles_of` gives the tiles of a dynamic body;
 /// `bodies_in` the dynamic and static bodies in a tile.
-pub(super) fn candidate_sets<'a>(
+pub(super) fn candidate_sets(
     seeds: impl Iterator<Item = u32>,
     tiles_of: impl Fn(u32) -> Vec<u64>,
-    bodies_in: impl Fn(u64) -> (&'a [u32], &'a [u32]),
+    bodies_in: impl Fn(u64) -> (Vec<u32>, Vec<u32>),
 ) -> Vec<CandidateSet> {
     let mut used_bodies = BTreeSet::new();
     let mut used_tiles = BTreeSet::new();
@@ -86,7 +86,7 @@ mod tests {
             candidate_sets(
                 0..self.moving.len() as u32,
                 |body| self.moving[body as usize].clone(),
-                |tile| (&moving[tile as usize], &fixed[tile as usize]),
+                |tile| (moving[tile as usize].clone(), fixed[tile as usize].clone()),
             )
         }
     }

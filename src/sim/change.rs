@@ -145,6 +145,7 @@ fn add_body(model: &mut Model, state: &mut State, body: &Body) -> Result<BodyRef
     let order = movers.chain(fixtures).filter(|id| *id == body.id).count() as u32;
     match compile_body(body, order).map_err(|problem| EditRefused(problem.message))? {
         Compiled::Mover(mover, start) => {
+            model.radii.push(mover.radius);
             model.movers.push(mover);
             if 2.0 * mover_radius(&model.movers) > MOST_TILES_ACROSS * model.grid.tile_size.min_element() {
                 return Err(EditRefused(format!(

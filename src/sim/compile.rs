@@ -53,6 +53,7 @@ pub(super) fn compile(scene: &Scene, method: Method) -> Result<(Model, Vec<Start
     let mut model = Model {
         params: scene.params,
         method,
+        radii: movers.iter().map(|mover| mover.radius).collect(),
         movers,
         fixtures,
         forces,

@@ -15,6 +15,8 @@ pub(super) struct Model {
     pub params: SimParams,
     pub method: Method,
     pub movers: Vec<MoverInfo>,
+    /// Radii of the movers, m: close together, for predictions read many.
+    pub radii: Vec<f64>,
     pub fixtures: Vec<Fixture>,
     pub forces: Vec<ForceEntry>,
     pub grid: Grid,

@@ -103,12 +103,13 @@ fn for_each_neighbour(model: &Model, state: &State, mut visit: impl FnMut(u32, O
     let mut others = Vec::new();
     for body in present(model) {
         others.clear();
-        for tile in state.registered[body as usize].tiles() {
-            let key = model.grid.key(tile);
-            let moving = state.moving.bodies(key).iter().filter(|other| **other > body);
-            others.extend(moving.map(|other| Other::Moving(*other)));
-            others.extend(model.static_tiles.bodies(key).iter().map(|other| Other::Fixed(*other)));
-        }
+        let range = state.registered[body as usize];
+        state.moving.visit(&model.grid, range, None, |other| {
+            if other > body {
+                others.push(Other::Moving(other));
+            }
+        });
+        model.static_tiles.visit(&model.grid, range, None, |other| others.push(Other::Fixed(other)));
         others.extend(model.static_tiles.large().iter().map(|other| Other::Fixed(*other)));
         others.sort_unstable();
         others.dedup();
@@ -121,20 +122,21 @@ fn for_each_neighbour(model: &Model, state: &State, mut visit: impl FnMut(u32, O
 /// The occupied tiles, at most `limit` of them, those with dynamic bodies first.
 pub(super) fn tiling(model: &Model, state: &State, limit: usize) -> Tiling {
     let grid = &model.grid;
-    let mut keys = state.moving.occupied();
-    let with_moving = keys.len();
-    let fixed = model.static_tiles.occupied().iter().copied();
-    let only_fixed: Vec<u64> =
-        fixed.filter(|key| keys[..with_moving].binary_search(key).is_err()).take(limit + 1).collect();
-    keys.extend(only_fixed);
-    let truncated = keys.len() > limit;
-    keys.truncate(limit);
-    keys.sort_unstable();
-    let occupied = keys
+    let mut tiles = state.moving.occupied(grid);
+    let with_moving = tiles.len();
+    let only_fixed: Vec<[u32; 3]> = (model.static_tiles.occupied().iter().copied())
+        .filter(|tile| tiles[..with_moving].binary_search(tile).is_err())
+        .take(limit + 1)
+        .collect();
+    tiles.extend(only_fixed);
+    let truncated = tiles.len() > limit;
+    tiles.truncate(limit);
+    tiles.sort_unstable();
+    let occupied = tiles
         .into_iter()
-        .map(|key| {
-            let fixed = model.static_tiles.bodies(key).len() as u32;
-            (grid.tile_of_key(key), fixed, state.moving.bodies(key).len() as u32)
+        .map(|tile| {
+            let fixed = model.static_tiles.bodies(grid, tile).len() as u32;
+            (tile, fixed, state.moving.bodies(grid, tile).len() as u32)
         })
         .collect();
     Tiling { tile_size: grid.tile_size, tiles: grid.counts, occupied, truncated }

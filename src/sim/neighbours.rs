@@ -63,15 +63,25 @@ fn predict_leaving(model: &Model, state: &mut State, body: u32, time: f64) {
     }
     let radius = model.movers[body as usize].radius;
     let path = state.path(body);
-    let margin = margin(model, radius, path.position(time));
+    let (x, v, a) = (path.position(time), path.velocity(time), path.segment.a);
+    let margin = margin(model, radius, x);
     let reach = radius + margin;
-    let leaving = DVec3::AXES
-        .into_iter()
-        .zip(high.to_array().into_iter().zip(low.to_array()))
-        .flat_map(|(axis, (high, low))| [(axis, high - reach), (-axis, -(low + reach))])
-        .filter(|(_, limit)| limit.is_finite())
-        .filter_map(|(axis, limit)| first_beyond(path, axis, limit, 0.5 * margin, time))
-        .fold(f64::INFINITY, f64::min);
+    let mut leaving = f64::INFINITY;
+    for (axis, unit) in DVec3::AXES.into_iter().enumerate() {
+        for (side, bound) in [(1.0, high[axis]), (-1.0, -low[axis])] {
+            let limit = bound - reach;
+            if limit == f64::INFINITY {
+                continue;
+            }
+            let beyond = if path.series.is_some() {
+                first_beyond(path, side * unit, limit, 0.5 * margin, time)
+            } else {
+                let distance = limit - side * x[axis];
+                first_root(distance, -side * v[axis], -side * a[axis]).map(|tau| time + tau)
+            };
+            leaving = leaving.min(beyond.unwrap_or(f64::INFINITY));
+        }
+    }
     if leaving <= path.segment.end && leaving.is_finite() {
         state.predict_one(leaving, Kind::LeaveTiles, body, 0);
     }
@@ -132,11 +142,15 @@ fn predict_neighbours(
 ) {
     let mut scratch = std::mem::take(&mut state.scratch);
     collect(model, state, &mut scratch, body, range, known);
-    for (kind, other) in scratch.found.drain(..) {
-        match kind {
-            Kind::Impact => predict_pair(model, state, body, other, f64::NEG_INFINITY, time),
-            _ => predict_fixture(model, state, body, other, f64::NEG_INFINITY, time),
-        }
+    let mover = state.mover(model, body);
+    let looked_at = scratch.found_moving.len();
+    scratch.found_moving.retain(|other| !predict::surely_pass(mover, state.mover(model, *other)));
+    state.counters.pair_tests += (looked_at - scratch.found_moving.len()) as u64;
+    for other in &scratch.found_moving {
+        predict_pair(model, state, body, *other, f64::NEG_INFINITY, time);
+    }
+    for fixture in &scratch.found_fixed {
+        predict_fixture(model, state, body, *fixture, f64::NEG_INFINITY, time);
     }
     state.scratch = scratch;
 }
@@ -153,21 +167,23 @@ fn collect(
     scratch.begin(state.segments.len(), model.fixtures.len());
     let epoch = scratch.epoch;
     scratch.seen_moving[body as usize] = epoch;
-    for tile in range.tiles().filter(|tile| !known.is_some_and(|known| known.contains(*tile))) {
-        let key = model.grid.key(tile);
-        for other in state.moving.bodies(key) {
-            if std::mem::replace(&mut scratch.seen_moving[*other as usize], epoch) != epoch {
-                scratch.found.push((Kind::Impact, *other));
-            }
+    let Scratch { seen_moving, seen_fixed, found_moving, found_fixed, .. } = scratch;
+    state.moving.visit(&model.grid, range, known, |other| {
+        // With who is in the old tiles too, the next impact is predicted already.
+        if known.is_some_and(|known| known.overlaps(&state.registered[other as usize])) {
+            return;
         }
-        for other in model.static_tiles.bodies(key) {
-            if std::mem::replace(&mut scratch.seen_fixed[*other as usize], epoch) != epoch {
-                scratch.found.push((Kind::FixtureImpact, *other));
-            }
+        if std::mem::replace(&mut seen_moving[other as usize], epoch) != epoch {
+            found_moving.push(other);
         }
-    }
+    });
+    model.static_tiles.visit(&model.grid, range, known, |other| {
+        if std::mem::replace(&mut seen_fixed[other as usize], epoch) != epoch {
+            found_fixed.push(other);
+        }
+    });
     if known.is_none() {
-        scratch.found.extend(model.static_tiles.large().iter().map(|other| (Kind::FixtureImpact, *other)));
+        scratch.found_fixed.extend(model.static_tiles.large());
     }
 }
 
@@ -204,7 +220,8 @@ pub(super) fn predict_fixture(
 
 impl Scratch {
     fn begin(&mut self, moving: usize, fixed: usize) {
-        self.found.clear();
+        self.found_moving.clear();
+        self.found_fixed.clear();
         self.epoch = self.epoch.wrapping_add(1);
         if self.epoch == 0 {
             self.seen_moving.fill(0);

@@ -86,7 +86,7 @@ pub(super) struct Queue {
 const SMALLEST_SWEEP: usize = 1024;
 
 /// Of this many entries the earliest goes to the heap.
-const SHARE: usize = 32;
+const SHARE: usize = 16;
 
 impl Queue {
     pub fn push(&mut self, predicted: Predicted) {

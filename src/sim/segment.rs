@@ -8,7 +8,9 @@ pub(super) const SERIES: usize = 7;
 /// Motion of one body from `start` on, valid until `end` (absolute model time, s).
 ///
 /// With τ = t − start:  x(τ) = x + vτ + ½aτ² (+ the series of a field segment, see [`Series`]).
+/// Aligned, for predictions read the segments of many bodies and each should cost as few cache lines as it can.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(align(64))]
 pub(super) struct Segment {
     pub start: f64,
     /// Infinite where the closed form holds for ever.

@@ -241,7 +241,10 @@ impl Simulation {
         candidate_sets(
             present(model),
             |body| state.registered[body as usize].tiles().map(|tile| model.grid.key(tile)).collect(),
-            |key| (state.moving.bodies(key), model.static_tiles.bodies(key)),
+            |key| {
+                let tile = model.grid.tile_of_key(key);
+                (state.moving.bodies(&model.grid, tile), model.static_tiles.bodies(&model.grid, tile))
+            },
         )
     }
 

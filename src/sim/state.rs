@@ -68,7 +68,8 @@ pub(super) struct Scratch {
     pub epoch: u32,
     pub seen_moving: Vec<u32>,
     pub seen_fixed: Vec<u32>,
-    pub found: Vec<(Kind, u32)>,
+    pub found_moving: Vec<u32>,
+    pub found_fixed: Vec<u32>,
 }
 
 impl State {
@@ -118,7 +119,7 @@ impl State {
     }
 
     pub fn mover<'a>(&'a self, model: &Model, body: u32) -> Mover<'a> {
-        Mover { path: self.path(body), radius: model.movers[body as usize].radius }
+        Mover { path: self.path(body), radius: model.radii[body as usize] }
     }
 
     pub fn position(&self, body: u32, time: f64) -> DVec3 {

@@ -75,6 +75,12 @@ pub(super) fn sphere_sphere(a: Mover<'_>, b: Mover<'_>, params: &SimParams, from
     sphere_sphere::first_contact(a, b, params, from)
 }
 
+/// Whether two dynamic spheres fly straight as seen from each other and pass or part: a quick look that is
+/// sure where it says so.
+pub(super) fn surely_pass(a: Mover<'_>, b: Mover<'_>) -> bool {
+    sphere_sphere::surely_pass(a, b)
+}
+
 pub(super) fn sphere_sphere_gap(a: Mover<'_>, b: Mover<'_>, time: f64) -> Gap {
     sphere_sphere::gap(a, b, time)
 }

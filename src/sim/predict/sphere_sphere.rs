@@ -19,17 +19,35 @@ pub(super) fn first_contact(a: Mover<'_>, b: Mover<'_>, params: &SimParams, from
     let (seg_a, seg_b) = (a.path.segment, b.path.segment);
     let from = seg_a.start.max(seg_b.start).max(from);
     let until = seg_a.end.min(seg_b.end);
+    let parabolas = a.path.series.is_none() && b.path.series.is_none();
+    if parabolas && seg_a.a == seg_b.a {
+        let position = b.path.position(from) - a.path.position(from);
+        let (velocity_a, velocity_b) = (a.path.velocity(from), b.path.velocity(from));
+        let speeds = || velocity_a.length() + velocity_b.length();
+        let tau = straight(position, velocity_b - velocity_a, speeds, a.radius + b.radius);
+        return tau.map(|tau| from + tau).filter(|time| *time <= until);
+    }
     let relative = relative(a, b, from);
     if let Some(hold) = pressed_together(a, b, &relative, params) {
         return Some(from + hold).filter(|time| *time <= until);
     }
-    let parabolas = a.path.series.is_none() && b.path.series.is_none();
-    if parabolas && relative.acceleration == DVec3::ZERO {
-        return straight(&relative, a.radius + b.radius).map(|tau| from + tau).filter(|time| *time <= until);
-    }
     let acceleration_bound = (!parabolas).then_some(seg_a.acceleration_bound + seg_b.acceleration_bound);
     let slack = touch_tolerance(seg_a.x, a.radius).max(touch_tolerance(seg_b.x, b.radius));
     advance(Search { from, until, acceleration_bound, slack }, |time| gap(a, b, time))
+}
+
+/// Without branches but one, so that the looks at many bodies overlap in the processor.
+pub(super) fn surely_pass(a: Mover<'_>, b: Mover<'_>) -> bool {
+    let (seg_a, seg_b) = (a.path.segment, b.path.segment);
+    if seg_a.step > 0.0 || seg_b.step > 0.0 || seg_a.a != seg_b.a {
+        return false;
+    }
+    let from = seg_a.start.max(seg_b.start);
+    let (tau_a, tau_b) = (from - seg_a.start, from - seg_b.start);
+    let p = (seg_b.x + tau_b * (seg_b.v + (0.5 * tau_b) * seg_b.a))
+        - (seg_a.x + tau_a * (seg_a.v + (0.5 * tau_a) * seg_a.a));
+    let v = (seg_b.v + tau_b * seg_b.a) - (seg_a.v + tau_a * seg_a.a);
+    (p.dot(v) >= 0.0) | misses(p, v, a.radius + b.radius)
 }
 
 pub(super) fn first_contact_fixed(mover: Mover<'_>, center: DVec3, radius: f64, from: f64) -> Option<f64> {
@@ -37,11 +55,8 @@ pub(super) fn first_contact_fixed(mover: Mover<'_>, center: DVec3, radius: f64, 
     let from = seg.start.max(from);
     if mover.path.series.is_none() && seg.a == DVec3::ZERO {
         let position = center - mover.path.position(from);
-        let relative =
-            Relative { position, velocity: -seg.v, acceleration: DVec3::ZERO, speeds: seg.v.length() };
-        return straight(&relative, mover.radius + radius)
-            .map(|tau| from + tau)
-            .filter(|time| *time <= seg.end);
+        let tau = straight(position, -seg.v, || seg.v.length(), mover.radius + radius);
+        return tau.map(|tau| from + tau).filter(|time| *time <= seg.end);
     }
     let search = Search {
         from,
@@ -109,22 +124,30 @@ fn pressed_together(a: Mover<'_>, b: Mover<'_>, relative: &Relative, params: &Si
     (gap.distance <= slack && gap.bend < 0.0 && still).then_some(hold)
 }
 
-/// First τ ≥ 0 with |p + vτ| = R while closing, for a relative motion without acceleration.
-fn straight(relative: &Relative, reach: f64) -> Option<f64> {
-    let (p, v) = (relative.position, relative.velocity);
+/// Whether two points that fly straight pass each other by more than `reach`, and are farther apart now.
+///
+/// (p·v)² − v²(p² − R²) = v²R² − |p×v|²: no cancellation when far away, which tells a graze from a miss.
+fn misses(p: DVec3, v: DVec3, reach: f64) -> bool {
+    (v.length_squared() * reach * reach < p.cross(v).length_squared())
+        & (p.length_squared() > (1.0 + 1e-9) * reach * reach)
+}
+
+/// First τ ≥ 0 with |p + vτ| = R while closing. `speeds` is the size of the speeds whose difference v is.
+///
+/// Most pairs part or pass each other: they are told without a square root.
+fn straight(p: DVec3, v: DVec3, speeds: impl Fn() -> f64, reach: f64) -> Option<f64> {
     let approach = p.dot(v);
-    if snap(approach, p.length() * relative.speeds) >= 0.0 {
+    if approach >= 0.0 || misses(p, v, reach) {
         return None;
     }
     let distance = p.length();
+    if snap(approach, distance * speeds()) == 0.0 {
+        return None;
+    }
     let excess = (distance - reach) * (distance + reach);
     if excess <= 0.0 {
         return Some(0.0);
     }
-    // (p·v)² − v²(p² − R²) = v²R² − |p×v|²: no cancellation when far away, which tells a graze from a miss.
     let discriminant = v.length_squared() * reach * reach - p.cross(v).length_squared();
-    if discriminant < 0.0 {
-        return None;
-    }
-    Some(excess / (discriminant.sqrt() - approach))
+    (discriminant >= 0.0).then(|| excess / (discriminant.sqrt() - approach))
 }

@@ -61,16 +61,13 @@ impl Grid {
         (DVec3::from_array(low), DVec3::from_array(high))
     }
 
-    /// One number for a tile, for maps and for the order of lists.
+    /// One number for a tile, whose order is that of the indices.
     pub fn key(&self, tile: [u32; 3]) -> u64 {
-        let [x, y, z] = tile.map(u64::from);
-        let [_, ny, nz] = self.counts.map(u64::from);
-        (x * ny + y) * nz + z
+        key(self.counts, tile)
     }
 
     pub fn tile_of_key(&self, key: u64) -> [u32; 3] {
-        let [_, ny, nz] = self.counts.map(u64::from);
-        [(key / (ny * nz)) as u32, ((key / nz) % ny) as u32, (key % nz) as u32]
+        tile_of_key(self.counts, key)
     }
 }
 
@@ -79,8 +76,9 @@ impl TileRange {
         (0..3).map(|axis| u64::from(self.high[axis] - self.low[axis]) + 1).product()
     }
 
-    pub fn contains(&self, tile: [u32; 3]) -> bool {
-        (0..3).all(|axis| self.low[axis] <= tile[axis] && tile[axis] <= self.high[axis])
+    /// Whether a tile is in both.
+    pub fn overlaps(&self, other: &Self) -> bool {
+        (0..3).all(|axis| self.low[axis] <= other.high[axis] && other.low[axis] <= self.high[axis])
     }
 
     pub fn tiles(self) -> impl Iterator<Item = [u32; 3]> {
@@ -89,4 +87,17 @@ impl TileRange {
             (low[1]..=high[1]).flat_map(move |y| (low[2]..=high[2]).map(move |z| [x, y, z]))
         })
     }
+}
+
+/// Position in row-major order.
+pub(super) fn key(counts: [u32; 3], index: [u32; 3]) -> u64 {
+    let [x, y, z] = index.map(u64::from);
+    let [_, ny, nz] = counts.map(u64::from);
+    (x * ny + y) * nz + z
+}
+
+/// The inverse of [`key`].
+pub(super) fn tile_of_key(counts: [u32; 3], key: u64) -> [u32; 3] {
+    let [_, ny, nz] = counts.map(u64::from);
+    [(key / (ny * nz)) as u32, ((key / nz) % ny) as u32, (key % nz) as u32]
 }

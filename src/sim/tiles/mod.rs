@@ -1,5 +1,6 @@
 //! The uniform grid that tells which bodies are near each other.
 
+mod bricks;
 mod grid;
 mod moving;
 mod statics;

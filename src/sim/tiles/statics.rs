@@ -3,23 +3,35 @@
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
+use super::bricks::{BrickTile, for_each_brick, slots};
 use super::{Grid, TileRange};
 use crate::sim::model::{Fixture, FixtureShape, Plate};
 
-/// Lists of static bodies by tile, one after the other in one array; only occupied tiles are stored.
+/// Lists of static bodies by tile, one after the other in one array; only bricks with bodies in them are
+/// stored.
 #[derive(Clone, Debug, Default)]
 pub(in crate::sim) struct StaticTiles {
-    spans: FxHashMap<u64, (u32, u32)>,
+    bricks: FxHashMap<u64, Brick>,
+    /// Where the list of each occupied tile begins in `items`, brick by brick, and the end of the last.
+    starts: Vec<u32>,
     items: Vec<u32>,
-    /// Keys of the occupied tiles, sorted.
-    occupied: Vec<u64>,
+    /// The occupied tiles, sorted.
+    occupied: Vec<[u32; 3]>,
     /// Static bodies that fill too many tiles to be listed in each.
     large: Vec<u32>,
 }
 
+#[derive(Clone, Copy, Debug)]
+struct Brick {
+    /// Tiles with bodies in them.
+    occupied: u64,
+    /// Place in `starts` of the first of them.
+    first: u32,
+}
+
 impl StaticTiles {
     pub fn new(grid: &Grid, fixtures: &[Fixture], tile_limit: u64) -> Self {
-        let mut entries: Vec<(u64, u32)> = Vec::new();
+        let mut entries: Vec<(BrickTile, u32)> = Vec::new();
         let mut large = Vec::new();
         for (index, fixture) in (0u32..).zip(fixtures).filter(|(_, fixture)| fixture.present) {
             let margin = margin(fixture);
@@ -34,7 +46,7 @@ impl StaticTiles {
                 range
                     .tiles()
                     .filter(|tile| touches(grid, *tile, fixture, margin))
-                    .map(|tile| (grid.key(tile), index)),
+                    .map(|tile| (BrickTile::new(grid, tile), index)),
             );
             if (entries.len() - first) as u64 > tile_limit {
                 entries.truncate(first);
@@ -42,35 +54,55 @@ impl StaticTiles {
             }
         }
         entries.sort_unstable();
-        let mut occupied: Vec<u64> = entries.iter().map(|entry| entry.0).collect();
-        occupied.dedup();
-        Self { occupied, spans: spans(&entries), items: entries.iter().map(|entry| entry.1).collect(), large }
+        let mut tiles = Self { large, ..Self::default() };
+        for list in entries.chunk_by(|a, b| a.0 == b.0) {
+            let BrickTile { brick, slot } = list[0].0;
+            let first = tiles.starts.len() as u32;
+            tiles.bricks.entry(brick).or_insert(Brick { occupied: 0, first }).occupied |= 1 << slot;
+            tiles.starts.push(tiles.items.len() as u32);
+            tiles.items.extend(list.iter().map(|entry| entry.1));
+            tiles.occupied.push(list[0].0.tile(grid));
+        }
+        tiles.occupied.sort_unstable();
+        tiles.starts.push(tiles.items.len() as u32);
+        tiles
     }
 
-    pub fn bodies(&self, key: u64) -> &[u32] {
-        self.spans.get(&key).map_or(&[], |(first, last)| &self.items[*first as usize..*last as usize])
+    /// Visits the bodies in tiles of `range` that are not in `except`, once for each such tile. Large ones
+    /// are left out.
+    pub fn visit(
+        &self,
+        grid: &Grid,
+        range: TileRange,
+        except: Option<TileRange>,
+        mut visit: impl FnMut(u32),
+    ) {
+        for_each_brick(grid, range, except, |key, mask| {
+            let Some(brick) = self.bricks.get(&key) else { return };
+            for slot in slots(mask & brick.occupied) {
+                let before = brick.occupied & ((1 << slot) - 1);
+                let list = (brick.first + before.count_ones()) as usize;
+                let (from, to) = (self.starts[list] as usize, self.starts[list + 1] as usize);
+                self.items[from..to].iter().for_each(|body| visit(*body));
+            }
+        });
+    }
+
+    /// The bodies in one tile, without large ones.
+    pub fn bodies(&self, grid: &Grid, tile: [u32; 3]) -> Vec<u32> {
+        let mut bodies = Vec::new();
+        self.visit(grid, TileRange { low: tile, high: tile }, None, |body| bodies.push(body));
+        bodies
     }
 
     pub fn large(&self) -> &[u32] {
         &self.large
     }
 
-    /// Keys of the occupied tiles, sorted.
-    pub fn occupied(&self) -> &[u64] {
+    /// The occupied tiles, sorted.
+    pub fn occupied(&self) -> &[[u32; 3]] {
         &self.occupied
     }
-}
-
-fn spans(entries: &[(u64, u32)]) -> FxHashMap<u64, (u32, u32)> {
-    let mut spans = FxHashMap::default();
-    let mut first = 0;
-    while first < entries.len() {
-        let key = entries[first].0;
-        let count = entries[first..].partition_point(|entry| entry.0 == key);
-        spans.insert(key, (first as u32, (first + count) as u32));
-        first += count;
-    }
-    spans
 }
 
 /// By how much a static body is taken as larger: above the rounding of the tests below, m.
@@ -171,10 +203,10 @@ mod tests {
                     let v = plate.half_y * (2.0 * random.unit() - 1.0);
                     let point = plate.center + u * plate.axis_x + v * plate.axis_y;
                     let TileRange { low, .. } = grid.range(point, point);
-                    assert_eq!(tiles.bodies(grid.key(low)), [0], "{point} of {plate:?}");
+                    assert_eq!(tiles.bodies(&grid, low), [0], "{point} of {plate:?}");
                 }
-                for key in tiles.occupied() {
-                    assert!(samples_hit(&grid, *key, &plate), "tile {key} lists {plate:?} in vain");
+                for tile in tiles.occupied() {
+                    assert!(samples_hit(&grid, *tile, &plate), "tile {tile:?} lists {plate:?} in vain");
                 }
             }
         }
@@ -182,9 +214,8 @@ mod tests {
 
     /// Whether the plate comes near a tile, by sampling the plate densely: a tile is a hundred times as
     /// large as the samples are apart.
-    fn samples_hit(grid: &Grid, key: u64, plate: &Plate) -> bool {
+    fn samples_hit(grid: &Grid, tile: [u32; 3], plate: &Plate) -> bool {
         const SAMPLES: i32 = 150;
-        let tile = grid.tile_of_key(key);
         let (low, high) = grid.bounds(&TileRange { low: tile, high: tile });
         let near = 4.0 / f64::from(SAMPLES) * plate.half_x.max(plate.half_y);
         (-SAMPLES..=SAMPLES).any(|i| {
@@ -218,8 +249,8 @@ mod tests {
         let grid = Grid::new(&Map { size: DVec3::splat(10.0), tiles: [10, 10, 10] }, 0.0);
         let ball = fixture(DVec3::splat(5.0), FixtureShape::Sphere { radius: 2.5 });
         let tiles = StaticTiles::new(&grid, &[ball], 4096);
-        assert_eq!(tiles.bodies(grid.key([4, 4, 4])), [0]);
-        assert_eq!(tiles.bodies(grid.key([2, 5, 5])), [0]);
-        assert_eq!(tiles.bodies(grid.key([2, 2, 2])), [0_u32; 0]);
+        assert_eq!(tiles.bodies(&grid, [4, 4, 4]), [0]);
+        assert_eq!(tiles.bodies(&grid, [2, 5, 5]), [0]);
+        assert_eq!(tiles.bodies(&grid, [2, 2, 2]), [0_u32; 0]);
     }
 }
