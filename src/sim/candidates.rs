@@ -8,6 +8,9 @@
 use std::collections::BTreeSet;
 
 use super::BodyRef;
+use super::account::present;
+use super::model::Model;
+use super::state::State;
 
 /// Bodies that could interact because they share tiles, directly or through other dynamic bodies.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -26,9 +29,22 @@ impl CandidateSet {
     }
 }
 
+/// The candidate sets of the bodies where they are registered.
+pub(super) fn candidate_sets(model: &Model, state: &State) -> Vec<CandidateSet> {
+    let grid = &model.grid;
+    sets_by_tile(
+        present(model),
+        |body| state.registered[body as usize].tiles().map(|tile| grid.key(tile)).collect(),
+        |key| {
+            let tile = grid.tile_of_key(key);
+            (state.moving.bodies(grid, tile), model.static_tiles.bodies(grid, tile))
+        },
+    )
+}
+
 /// The candidate sets of the dynamic bodies `seeds`. `tiles_of` gives the tiles of a dynamic body;
 /// `bodies_in` the dynamic and static bodies in a tile.
-pub(super) fn candidate_sets(
+fn sets_by_tile(
     seeds: impl Iterator<Item = u32>,
     tiles_of: impl Fn(u32) -> Vec<u64>,
     bodies_in: impl Fn(u64) -> (Vec<u32>, Vec<u32>),
@@ -83,7 +99,7 @@ mod tests {
             let tiles = 0..64;
             let moving: Vec<Vec<u32>> = tiles.clone().map(|tile| lists(&self.moving, tile)).collect();
             let fixed: Vec<Vec<u32>> = tiles.map(|tile| lists(&self.fixed, tile)).collect();
-            candidate_sets(
+            sets_by_tile(
                 0..self.moving.len() as u32,
                 |body| self.moving[body as usize].clone(),
                 |tile| (moving[tile as usize].clone(), fixed[tile as usize].clone()),

@@ -237,15 +237,7 @@ impl Simulation {
     /// The dynamic bodies now, in sets of those that share tiles directly or through others, each with the
     /// static bodies in its tiles.
     pub fn candidate_sets(&self) -> Vec<CandidateSet> {
-        let (model, state) = (&self.model, &self.state);
-        candidate_sets(
-            present(model),
-            |body| state.registered[body as usize].tiles().map(|tile| model.grid.key(tile)).collect(),
-            |key| {
-                let tile = model.grid.tile_of_key(key);
-                (state.moving.bodies(&model.grid, tile), model.static_tiles.bodies(&model.grid, tile))
-            },
-        )
+        candidate_sets(&self.model, &self.state)
     }
 
     /// Applies a change now. Refused, everything is as it was.

@@ -85,11 +85,9 @@ const LIMIT: u32 = StepLimits::DEFAULT.collisions;
 /// What lies in a body's tiles, each once.
 fn neighbours(model: &Model, state: &State, body: u32) -> Vec<Partner> {
     let mut found: Vec<Partner> = Vec::new();
-    for tile in state.registered[body as usize].tiles() {
-        let key = model.grid.key(tile);
-        found.extend(state.moving.bodies(key).iter().map(|other| Partner::Moving(*other)));
-        found.extend(model.static_tiles.bodies(key).iter().map(|other| Partner::Fixed(*other)));
-    }
+    let range = state.registered[body as usize];
+    state.moving.visit(&model.grid, range, None, |other| found.push(Partner::Moving(other)));
+    model.static_tiles.visit(&model.grid, range, None, |other| found.push(Partner::Fixed(other)));
     found.extend(model.static_tiles.large().iter().map(|other| Partner::Fixed(*other)));
     found.sort_unstable();
     found.dedup();

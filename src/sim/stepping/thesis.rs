@@ -35,11 +35,7 @@ impl SetSearch {
         for body in present(model) {
             register(model, state, body, end);
         }
-        let found = candidate_sets(
-            present(model),
-            |body| state.registered[body as usize].tiles().map(|tile| model.grid.key(tile)).collect(),
-            |key| (state.moving.bodies(key), model.static_tiles.bodies(key)),
-        );
+        let found = candidate_sets(model, state);
         let mut sets: Vec<LocalSet> = found.iter().map(|set| LocalSet::new(model, set)).collect();
         let start = state.now;
         for set in &mut sets {
