@@ -3,6 +3,7 @@
 mod check;
 mod edit;
 mod error;
+mod hard_cases;
 mod input;
 mod interrupt;
 mod method;
@@ -21,6 +22,7 @@ use clap::{Parser, Subcommand};
 pub use check::CheckArgs;
 pub use edit::EditArgs;
 pub use error::{CliError, say};
+pub use hard_cases::HardCasesArgs;
 pub use input::{Examined, examine};
 #[cfg(feature = "render")]
 pub use render::RenderArgs;
@@ -53,6 +55,7 @@ struct Cli {
 pub enum Verb {
     Run(RunArgs),
     Check(CheckArgs),
+    HardCases(HardCasesArgs),
     #[cfg(feature = "render")]
     Render(RenderArgs),
     Study(StudyArgs),
@@ -64,6 +67,7 @@ impl Verb {
         match self {
             Self::Run(args) => run::run(args),
             Self::Check(args) => check::check(args),
+            Self::HardCases(args) => hard_cases::hard_cases(args),
             #[cfg(feature = "render")]
             Self::Render(args) => render::render(args),
             Self::Study(args) => study::study(args),

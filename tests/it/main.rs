@@ -45,6 +45,8 @@ mod gui_words;
 mod hard_cases;
 // Every scene of the repository: the same bits for every Δt, tiling and file order.
 mod hard_invariance;
+// The verb `hard-cases` through the real program.
+mod hard_verb;
 // The rules of the source tree: layers, file sizes, function sizes.
 mod layering;
 // Runners with the methods that step by Δt: going back at the Δt of then.
