@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::force::Subject;
+use super::force::{ForceEntry, Law, Subject};
 use super::model::Model;
 use super::motion::{applied_force, integrate};
 use super::state::State;
@@ -61,6 +61,8 @@ pub(super) struct Account {
     pub dissipated: Sum,
     /// Energy put in by edits, J.
     pub edit_work: Sum,
+    /// Whether a force without a potential has done work, which nobody knows.
+    pub unknown_work: bool,
     /// Momentum given by static bodies in impacts, and by edits.
     pub impulses: VectorSum,
     /// ∫F dt over segments that have ended, contact forces included.
@@ -112,15 +114,28 @@ pub(super) fn open(model: &Model, state: &mut State) {
 pub(super) fn book_segment(model: &Model, state: &mut State, body: u32, time: f64) {
     let dissipated = dissipated(model, state, body, time);
     let impulse = force_impulse(model, state, body, time);
+    state.account.unknown_work |= has_unknown_work(model, state, body, time);
     state.account.dissipated.add(dissipated);
     state.account.force_impulse.add(impulse);
+}
+
+fn has_unknown_work(model: &Model, state: &State, body: u32, time: f64) -> bool {
+    let custom = |force: &ForceEntry| matches!(force.law, Law::Custom(_));
+    model.forces.iter().any(custom)
+        && time > state.segments[body as usize].start
+        && potential(model, &subject(model, state, body, time)).is_none()
+}
+
+/// Sum over the forces, J; `None` when one has no potential.
+fn potential(model: &Model, subject: &Subject<'_>) -> Option<f64> {
+    model.forces.iter().map(|force| force.law.potential(subject)).sum()
 }
 
 pub(super) fn energy(model: &Model, state: &State) -> Energy {
     let (kinetic, potential) = energies(model, state, state.now);
     let total = potential.map(|potential| kinetic + potential);
     let account = &state.account;
-    let residual = total.map(|total| {
+    let residual = total.filter(|_| !account.unknown_work).map(|total| {
         let mut sum = Sum::default();
         sum.add(total);
         sum.add(-account.energy_at_start);
@@ -130,7 +145,8 @@ pub(super) fn energy(model: &Model, state: &State) -> Energy {
             sum.add(dissipated(model, state, body, state.now));
         }
         sum.add(-account.edit_work.value());
-        let turned_over = account.impact_losses.value().abs().max(account.dissipated.value().abs());
+        let turned_over = [&account.impact_losses, &account.dissipated, &account.edit_work];
+        let turned_over = turned_over.into_iter().map(|sum| sum.value().abs()).fold(0.0, f64::max);
         let scale = account.energy_at_start.abs().max(account.kinetic_at_start).max(kinetic).max(turned_over);
         relative(sum.value(), scale)
     });
@@ -164,9 +180,11 @@ pub(super) fn present(model: &Model) -> impl Iterator<Item = u32> + '_ {
 
 pub(super) fn subject<'a>(model: &'a Model, state: &State, body: u32, time: f64) -> Subject<'a> {
     let mover = &model.movers[body as usize];
+    let (position, low) = state.path(body).position_split(time);
     Subject {
         time,
-        position: state.position(body, time),
+        position,
+        low,
         velocity: state.velocity(body, time),
         mass: mover.mass,
         radius: mover.radius,

@@ -6,7 +6,7 @@ use super::account::present;
 use super::impact;
 use super::lasting::{keep_contacts, prune_contacts};
 use super::model::Model;
-use super::motion::{SegmentError, begin_segment};
+use super::motion::{SegmentError, begin_segment, turn_back};
 use super::neighbours::{predict_all, predict_core_passes, predict_fixture, predict_pair, reregister};
 use super::predict::{self, sphere_fixture_gap, sphere_sphere_gap};
 use super::queue::{Kind, Predicted};
@@ -131,7 +131,8 @@ fn is_closed(gap: &predict::Gap, radius: f64, time: f64) -> bool {
 }
 
 /// The body is turned back on its line at the core of a point attractor, the limit of ever thinner
-/// ellipses: the radial velocity is reversed, energy and angular momentum are kept.
+/// ellipses, with its energy kept: it retraces its way, or where a force is not the same backwards, its
+/// radial velocity is reversed.
 fn pass_core(model: &Model, state: &mut State, next: &Predicted) -> Result<(), Fault> {
     let (body, time) = (next.a, next.time);
     let (x, v) = (state.position(body, time), state.velocity(body, time));
@@ -145,7 +146,7 @@ fn pass_core(model: &Model, state: &mut State, next: &Predicted) -> Result<(), F
     if speed <= 0.0 {
         return Ok(());
     }
-    let turned = v - 2.0 * speed * inward;
+    let turned = if turn_back(model, state, body, time) { -v } else { v - 2.0 * speed * inward };
     let mass = model.movers[body as usize].mass;
     state.account.impulses.add(mass * (turned - v));
     record(

@@ -15,6 +15,8 @@ pub struct Subject<'a> {
     pub time: f64,
     /// Centre, m.
     pub position: DVec3,
+    /// What the centre has beyond the digits of `position`, m.
+    pub(super) low: DVec3,
     /// m/s.
     pub velocity: DVec3,
     /// kg.
@@ -142,7 +144,7 @@ impl Law {
             Self::Uniform { acceleration } => on.mass * *acceleration,
             // F = G m r/|r|³ towards the centre.
             Self::Point { center, intensity } => {
-                let r = *center - on.position;
+                let r = (*center - on.position) - on.low;
                 let distance_squared = r.length_squared();
                 if *intensity == 0.0 || distance_squared == 0.0 {
                     return DVec3::ZERO;
@@ -163,7 +165,7 @@ impl Law {
         match self {
             Self::Uniform { acceleration } => Some(-on.mass * acceleration.dot(on.position)),
             Self::Point { center, intensity } => {
-                let distance = (*center - on.position).length();
+                let distance = ((*center - on.position) - on.low).length();
                 Some(if *intensity == 0.0 { 0.0 } else { -intensity * on.mass / distance })
             }
             Self::Drag { .. } => Some(0.0),

@@ -201,7 +201,7 @@ pub(super) fn prune_contacts(model: &Model, state: &mut State, body: u32, time: 
     }
     let radius = model.movers[body as usize].radius;
     let mut at = subject(model, state, body, time);
-    (at.position, at.velocity) = (x, v);
+    (at.position, at.low, at.velocity) = (x, DVec3::ZERO, v);
     let free = applied_force(model, &at) / at.mass;
     let old = std::mem::take(&mut state.contacts[body as usize]);
     let touches = touches_at(model, &old, radius, x, v);

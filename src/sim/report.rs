@@ -44,7 +44,8 @@ pub struct Energy {
     /// `None` when a force has no potential.
     pub total: Option<f64>,
     /// (E − E₀ + impact losses + dissipated work − work of edits) over the largest of |E₀|, the kinetic
-    /// energy at the start and now, and the energy lost.
+    /// energy at the start and now, the energy lost, and that put in by edits. `None` also after a force
+    /// without a potential was removed, for what it did is not known.
     pub residual: Option<f64>,
 }
 

@@ -31,6 +31,9 @@ pub(super) struct Segment {
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub(super) struct Series {
     pub b: [DVec3; SERIES],
+    /// What the start has beyond the digits of `Segment::x`, m: near an attractor far from the origin the
+    /// force needs them.
+    pub low: DVec3,
 }
 
 impl Segment {
@@ -57,12 +60,22 @@ pub(super) struct Path<'a> {
 
 impl Path<'_> {
     pub fn position(&self, time: f64) -> DVec3 {
+        self.segment.x + self.way(time)
+    }
+
+    /// The position, and what it has beyond its own digits.
+    pub fn position_split(&self, time: f64) -> (DVec3, DVec3) {
+        split(self.segment.x, self.way(time))
+    }
+
+    /// How far the body has come since the start of the segment.
+    fn way(&self, time: f64) -> DVec3 {
         let seg = self.segment;
         let tau = time - seg.start;
-        let base = seg.x + tau * (seg.v + (0.5 * tau) * seg.a);
+        let base = tau * (seg.v + (0.5 * tau) * seg.a);
         match self.series {
             None => base,
-            Some(series) => base + (tau * tau) * series.position_term(tau / seg.step),
+            Some(series) => series.low + (base + (tau * tau) * series.position_term(tau / seg.step)),
         }
     }
 
@@ -83,6 +96,14 @@ impl Path<'_> {
             Some(series) => seg.a + series.acceleration_term((time - seg.start) / seg.step),
         }
     }
+}
+
+/// x + way, and what is lost in that sum.
+pub(super) fn split(x: DVec3, way: DVec3) -> (DVec3, DVec3) {
+    let sum = x + way;
+    // Knuth's exact sum of two, for either may be the larger.
+    let of_way = sum - x;
+    (sum, (x - (sum - of_way)) + (way - of_way))
 }
 
 impl Series {

@@ -1,6 +1,6 @@
 //! Everything that moves, as columns over the dynamic bodies.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 
 use glam::DVec3;
 
@@ -8,6 +8,7 @@ use super::account::Account;
 use super::compile::Start;
 use super::contact::Contact;
 use super::model::Model;
+use super::motion::Plunge;
 use super::predict::Mover;
 use super::queue::{Kind, Predicted, Queue};
 use super::segment::{Path, Segment, Series};
@@ -30,6 +31,8 @@ pub(super) struct State {
     pub registered: Vec<TileRange>,
     /// Integrated motion; empty while all forces are uniform and no surface is round.
     pub fields: Vec<FieldColumn>,
+    /// Bodies close to an attractor, on their way in or back.
+    pub plunges: BTreeMap<u32, Plunge>,
     /// Lasting contacts; most bodies have none.
     pub contacts: Vec<Vec<Contact>>,
     /// The impacts of each body that follow each other closely.
@@ -83,6 +86,7 @@ impl State {
             stamps: Vec::with_capacity(starts.len()),
             registered: Vec::with_capacity(starts.len()),
             fields: Vec::new(),
+            plunges: BTreeMap::new(),
             contacts: Vec::with_capacity(starts.len()),
             cascades: Vec::with_capacity(starts.len()),
             moving: MovingTiles::default(),

@@ -77,6 +77,8 @@ mod sim_contact;
 mod sim_edits;
 // Overlaps at the start, huge and tiny numbers, nothing at all.
 mod sim_extremes;
+// Fields: plunges, thin orbits, forces switched while running, forces of the user's own.
+mod sim_fields;
 // Motion between events: throw, Kepler ellipse, fall through air.
 mod sim_flight;
 // Several contacts at one instant: corners, trains of balls, a billiard break.

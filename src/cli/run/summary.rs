@@ -170,11 +170,12 @@ impl<'a> Summary<'a> {
 impl EnergyReport {
     fn for_people(&self) -> String {
         let Self { kinetic, potential, total, residual } = *self;
-        let (Some(potential), Some(total), Some(residual)) = (potential, total, residual) else {
+        let (Some(potential), Some(total)) = (potential, total) else {
             return format!("{} J kinetic; a force has no potential, so there is no total", short(kinetic));
         };
+        let residual = residual.map_or("unknown: a force without a potential was removed".into(), small);
         let (total, kinetic, potential) = (short(total), short(kinetic), short(potential));
-        format!("{total} J: {kinetic} kinetic, {potential} potential; residual {}", small(residual))
+        format!("{total} J: {kinetic} kinetic, {potential} potential; residual {residual}")
     }
 }
 

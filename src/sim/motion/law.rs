@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::plunge::{self, Next, Point};
 use super::radau::{RadauError, RadauStart, radau_step};
 use crate::sim::account::book_segment;
 use crate::sim::contact::{Contact, constrain};
@@ -31,7 +32,7 @@ fn acceleration_of(model: &Model, contacts: &[Contact], subject: &Subject<'_>) -
 }
 
 /// Lets a body go on from (x, v) at `time`: books the old segment, begins the new one, and makes every
-/// prediction about the old one stale.
+/// prediction about the old one stale. An error leaves all as it was.
 pub(in crate::sim) fn begin_segment(
     model: &Model,
     state: &mut State,
@@ -40,22 +41,29 @@ pub(in crate::sim) fn begin_segment(
     x: DVec3,
     v: DVec3,
 ) -> Result<(), SegmentError> {
-    book_segment(model, state, body, time);
     if in_core(model, x) {
         return Err(SegmentError::InCore);
     }
-    let mut segment = if needs_integration(model, state, body) {
+    let (mut segment, column) = if needs_integration(model, state, body) {
         integrated(model, state, body, time, x, v)?
     } else {
         let subject = subject_at(model, body, time, x, v);
-        Segment::ballistic(time, x, v, acceleration_of(model, &state.contacts[body as usize], &subject))
+        let a = acceleration_of(model, &state.contacts[body as usize], &subject);
+        (Segment::ballistic(time, x, v, a), None)
     };
     // The squares too: searches work with lengths, and do not end on infinite ones.
     if ![segment.x, segment.v, segment.a].iter().all(|vector| vector.length_squared().is_finite()) {
         return Err(SegmentError::NotFinite);
     }
+    book_segment(model, state, body, time);
     let index = body as usize;
     segment.constrained = !state.contacts[index].is_empty();
+    if let Some(column) = column {
+        if state.fields.len() <= index {
+            state.fields.resize(state.segments.len(), FieldColumn::default());
+        }
+        state.fields[index] = column;
+    }
     state.segments[index] = segment;
     state.stamps[index] = state.stamps[index].wrapping_add(1);
     state.counters.segments += 1;
@@ -87,32 +95,48 @@ fn integrated(
     time: f64,
     x: DVec3,
     v: DVec3,
-) -> Result<Segment, SegmentError> {
-    let index = body as usize;
-    if state.fields.len() <= index {
-        state.fields.resize(state.segments.len(), FieldColumn::default());
-    }
-    let old = state.segments[index];
+) -> Result<(Segment, Option<FieldColumn>), SegmentError> {
+    let old = state.segments[body as usize];
+    let column = state.fields.get(body as usize).copied().unwrap_or_default();
     let goes_on = old.step > 0.0 && old.end == time;
-    let column = state.fields[index];
+    let from = match plunge::next(state, body, time, v) {
+        Some(Next::Leg(leg)) => {
+            let (segment, series) = *leg;
+            return Ok((segment, Some(FieldColumn { series, next_step: segment.step })));
+        }
+        Some(Next::Out(from)) => from,
+        None => {
+            plunge::remember(model, state, body, time);
+            Point { x, low: low_part(state, body, time, x), v }
+        }
+    };
     let start = RadauStart {
         time,
-        x,
-        v,
+        x: from.x,
+        low: from.low,
+        v: from.v,
+        reads_position: model.forces.iter().any(|force| matches!(force.law, Law::Custom(_))),
         step: column.next_step,
         previous: goes_on.then_some((&column.series, old.step)),
         tolerance: model.params.field_tolerance,
     };
-    let contacts = &state.contacts[index];
-    let step = radau_step(&start, &mut state.counters.force_evaluations, |time, x, v| {
-        acceleration_of(model, contacts, &subject_at(model, body, time, x, v))
+    let contacts = &state.contacts[body as usize];
+    let step = radau_step(&start, &mut state.counters.force_evaluations, |time, at, v| {
+        let subject = Subject { low: at.low, ..subject_at(model, body, time, at.x, v) };
+        acceleration_of(model, contacts, &subject)
     });
     let (segment, series, next_step) = step.map_err(|error| match error {
         RadauError::NotFinite => SegmentError::NotFinite,
         RadauError::Stalled => SegmentError::Stalled,
     })?;
-    state.fields[index] = FieldColumn { series, next_step };
-    Ok(segment)
+    Ok((segment, Some(FieldColumn { series, next_step })))
+}
+
+/// What a body that goes on from where it is has beyond the digits of its position, m.
+fn low_part(state: &State, body: u32, time: f64, x: DVec3) -> DVec3 {
+    let path = state.path(body);
+    let (at, low) = path.position_split(time);
+    if path.series.is_some() && at == x { low } else { DVec3::ZERO }
 }
 
 fn subject_at(model: &Model, body: u32, time: f64, position: DVec3, velocity: DVec3) -> Subject<'_> {
@@ -120,6 +144,7 @@ fn subject_at(model: &Model, body: u32, time: f64, position: DVec3, velocity: DV
     Subject {
         time,
         position,
+        low: DVec3::ZERO,
         velocity,
         mass: mover.mass,
         radius: mover.radius,

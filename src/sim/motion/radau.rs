@@ -6,7 +6,7 @@
 
 use glam::DVec3;
 
-use crate::sim::segment::{SERIES, Segment, Series};
+use crate::sim::segment::{SERIES, Segment, Series, split};
 
 /// Left Radau nodes on [0, 1]: 0 and the zeros of a Jacobi polynomial (Everhart 1985, table 1).
 #[allow(clippy::excessive_precision, reason = "the digits as published; the compiler rounds them")]
@@ -61,13 +61,24 @@ const NOISE_GAIN: f64 = 1e3;
 pub(in crate::sim) struct RadauStart<'a> {
     pub time: f64,
     pub x: DVec3,
+    /// See [`Series::low`].
+    pub low: DVec3,
     pub v: DVec3,
+    /// Whether a force looks at the rounded position.
+    pub reads_position: bool,
     /// First guess of the step, s; 0 asks for one from the field itself.
     pub step: f64,
     /// The series of the step just ended (with its length), to extrapolate from.
     pub previous: Option<(&'a Series, f64)>,
     /// Largest accepted |b₆|/|a|: `SimParams::field_tolerance`.
     pub tolerance: f64,
+}
+
+/// A position with what it has beyond its own digits, m.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::sim) struct Place {
+    pub x: DVec3,
+    pub low: DVec3,
 }
 
 /// Why no step could be made.
@@ -82,13 +93,14 @@ pub(in crate::sim) enum RadauError {
 pub(in crate::sim) fn radau_step(
     start: &RadauStart<'_>,
     evaluations: &mut u64,
-    mut acceleration: impl FnMut(f64, DVec3, DVec3) -> DVec3,
+    mut acceleration: impl FnMut(f64, Place, DVec3) -> DVec3,
 ) -> Result<(Segment, Series, f64), RadauError> {
-    let mut field = |time, x, v| {
+    let mut field = |time, way, v| {
         *evaluations += 1;
-        acceleration(time, x, v)
+        let (x, low) = split(start.x, start.low + way);
+        acceleration(time, Place { x, low }, v)
     };
-    let a0 = field(start.time, start.x, start.v);
+    let a0 = field(start.time, DVec3::ZERO, start.v);
     if !(a0.is_finite() && start.x.is_finite() && start.v.is_finite()) {
         return Err(RadauError::NotFinite);
     }
@@ -111,6 +123,7 @@ pub(in crate::sim) fn radau_step(
             guess = Series::default();
             continue;
         }
+        let series = Series { low: start.low, ..series };
         let segment = Segment {
             start: start.time,
             end: start.time + step,
@@ -151,9 +164,9 @@ fn correct(
         largest = a0.length();
         for n in 1..=SERIES {
             let tau = NODES[n] * step;
-            let x = start.x + tau * (start.v + tau * (0.5 * a0 + series.position_term(NODES[n])));
+            let way = tau * (start.v + tau * (0.5 * a0 + series.position_term(NODES[n])));
             let v = start.v + tau * (a0 + series.velocity_term(NODES[n]));
-            let a = field(start.time + tau, x, v);
+            let a = field(start.time + tau, way, v);
             if !a.is_finite() {
                 return Attempt { series, converged: false, error: f64::INFINITY };
             }
@@ -164,7 +177,9 @@ fn correct(
             }
             if n == SERIES {
                 change = delta.length();
-                noise = NOISE_GAIN * rounding_of(a - a0, x - start.x, start.x);
+                let rounding = f64::EPSILON * a.length();
+                noise = NOISE_GAIN
+                    * if start.reads_position { rounding_of(a - a0, way, start.x) } else { rounding };
             }
         }
         let relative = change / scale(largest, start.v, step);
@@ -220,7 +235,7 @@ fn differences_of(series: &Series) -> [DVec3; SERIES] {
 }
 
 /// The same polynomial, seen from the end of its step and scaled to a step `q` times as long.
-fn extrapolate(series: &Series, q: f64) -> Series {
+pub(super) fn extrapolate(series: &Series, q: f64) -> Series {
     if q > 4.5 {
         return Series::default();
     }
@@ -243,7 +258,7 @@ fn extrapolate(series: &Series, q: f64) -> Series {
 /// A tenth of the time in which the acceleration changes by itself along the velocity.
 fn first_guess(start: &RadauStart<'_>, a0: DVec3, field: &mut impl FnMut(f64, DVec3, DVec3) -> DVec3) -> f64 {
     const PROBE: f64 = 1e-6;
-    let ahead = field(start.time + PROBE, start.x + PROBE * start.v, start.v + PROBE * a0);
+    let ahead = field(start.time + PROBE, PROBE * start.v, start.v + PROBE * a0);
     let jerk = (ahead - a0).length() / PROBE;
     let size = a0.length();
     if jerk > 0.0 && size > 0.0 { (0.1 * size / jerk).clamp(1e-5, 0.1) } else { 0.01 }

@@ -20,7 +20,7 @@ pub(super) fn begin(
     v: DVec3,
 ) -> Result<(), Fault> {
     let mut here = subject(model, state, body, time);
-    (here.position, here.velocity) = (x, v);
+    (here.position, here.low, here.velocity) = (x, DVec3::ZERO, v);
     let acceleration = acceleration(model, state, &here);
     replace(model, state, body, Segment::ballistic(time, x, v, acceleration))
 }
