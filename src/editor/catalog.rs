@@ -281,6 +281,8 @@ pub const COMMANDS: &[CommandInfo] = &[
     )
     .runs(Command::ToggleSnapping)
     .keys(&[Shortcut::plain(Key::Char('G'))]),
+    row(Menu::View, 4, "show_accuracy", "Accuracy", "Shows speed against error of every method")
+        .runs(Command::ShowAccuracy),
     row(Menu::View, 4, "switch_colors", "Dark or light colours", "Switches the colours of the window")
         .runs(Command::SwitchColors),
     //

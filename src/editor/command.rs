@@ -63,6 +63,8 @@ pub enum Command {
     ShowTwoViews,
     ShowFourViews,
     ToggleProjection,
+    /// Shows the panel that compares speed and errors of the methods.
+    ShowAccuracy,
     SwitchColors,
     ToggleSnapping,
     /// Puts the keyboard into the filter of the scene tree.

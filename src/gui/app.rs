@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 use egui::{Context, Ui, ViewportCommand};
 use serde::{Deserialize, Serialize};
 
+use super::accuracy::Accuracy;
 use super::context::{AppContext, Message, Outbox, Shown};
 use super::dialogs::{Dialogs, FileDialogs};
 use super::inspector::Inspector;
@@ -42,6 +43,7 @@ pub struct App {
     inspector: Inspector,
     transport: Transport,
     pub(super) problems: Problems,
+    pub(super) accuracy: Accuracy,
     dialogs: Dialogs,
     toasts: Toasts,
     layout: PanelLayout,
@@ -62,6 +64,7 @@ pub(super) enum Tab {
     #[default]
     Events,
     Problems,
+    Accuracy,
 }
 
 /// What outlives a run, beside egui's own memory of the panels' sizes.
@@ -103,6 +106,7 @@ impl App {
             inspector: Inspector::default(),
             transport: Transport::default(),
             problems: Problems::default(),
+            accuracy: Accuracy::default(),
             dialogs: Dialogs::new(parts.files),
             toasts,
             layout,
@@ -222,11 +226,16 @@ impl App {
             .default_size(344.0)
             .size_range(240.0..=560.0)
             .show(ui, |ui| self.inspector.show(ui, &context));
-        egui::Panel::bottom(panel("lists"))
+        // a diagram wants more room than a list, and each keeps the height it was given
+        let (name, height) =
+            if self.layout.tab == Tab::Accuracy { ("accuracy", 330.0) } else { ("lists", 176.0) };
+        egui::Panel::bottom(panel(name))
             .frame(flush)
-            .default_size(176.0)
-            .size_range(60.0..=500.0)
-            .show(ui, |ui| lists(ui, &context, &mut self.problems, &mut self.layout.tab));
+            .default_size(height)
+            .size_range(60.0..=560.0)
+            .show(ui, |ui| {
+                lists(ui, &context, (&mut self.problems, &mut self.accuracy), &mut self.layout.tab)
+            });
         egui::Panel::bottom("strip").frame(flush).exact_size(strip::HEIGHT).show(ui, |ui| {
             strip::show(ui, &context);
         });
@@ -291,6 +300,13 @@ impl App {
             Message::OverlaysInAllViews(overlays) => self.views.set_overlays(overlays),
             Message::Tell(text) => self.toasts.add(Notice::info(text)),
             Message::Warn(text) => self.toasts.add(Notice::warning(text)),
+            Message::AskExport { export, file_name } => {
+                self.dialogs.ask_for_export(ctx, export, file_name);
+            }
+            Message::Export(export, path) => match self.accuracy.write(export, &path) {
+                Ok(()) => self.toasts.add(Notice::info(format!("Wrote {}", path.display()))),
+                Err(problem) => self.toasts.add(Notice::error(problem)),
+            },
         }
     }
 
@@ -304,6 +320,7 @@ impl App {
                 let dark = ctx.theme() == egui::Theme::Dark;
                 ctx.set_theme(if dark { egui::Theme::Light } else { egui::Theme::Dark });
             }
+            Command::ShowAccuracy => self.layout.tab = Tab::Accuracy,
             Command::Find => self.tree.find(),
             Command::Rename => {
                 if let Some(key) = self.session.selection().primary() {
@@ -321,6 +338,14 @@ impl App {
 
     pub(super) fn perform(&mut self, action: Action) {
         self.session.perform(action);
+    }
+
+    /// As the button of the Accuracy panel does.
+    pub(super) fn run_study(&mut self, ctx: &Context) {
+        self.look_at_scene();
+        if let Some(shown) = &self.shown {
+            self.accuracy.start(ctx, shown, self.session.title());
+        }
     }
 
     pub(super) fn show_tab(&mut self, tab: Tab) {
@@ -351,8 +376,13 @@ fn context_of<'a>(
     AppContext { session, shown, theme: viewport::theme_of(ctx), outbox }
 }
 
-/// Events and problems, one behind the other.
-fn lists(ui: &mut Ui, context: &AppContext<'_>, problems: &mut Problems, tab: &mut Tab) {
+/// Events, problems and accuracy, one behind the other.
+fn lists(
+    ui: &mut Ui,
+    context: &AppContext<'_>,
+    (problems, accuracy): (&mut Problems, &mut Accuracy),
+    tab: &mut Tab,
+) {
     let tones = super::colors::tones(ui);
     egui::Frame::new().fill(tones.heading).inner_margin(egui::Margin::symmetric(6, 2)).show(ui, |ui| {
         ui.horizontal(|ui| {
@@ -368,6 +398,8 @@ fn lists(ui: &mut Ui, context: &AppContext<'_>, problems: &mut Problems, tab: &m
             let count = if counts.is_empty() { String::new() } else { format!(" ({})", counts.join(", ")) };
             let count = format!("Problems{count}");
             ui.selectable_value(tab, Tab::Problems, count);
+            let running = if accuracy.is_running() { " (running)" } else { "" };
+            ui.selectable_value(tab, Tab::Accuracy, format!("Accuracy{running}"));
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 if *tab == Tab::Events && events > 0 {
                     let copy = ui
@@ -385,6 +417,7 @@ fn lists(ui: &mut Ui, context: &AppContext<'_>, problems: &mut Problems, tab: &m
         match tab {
             Tab::Events => super::events::show(ui, context),
             Tab::Problems => problems.show(ui, context),
+            Tab::Accuracy => accuracy.show(ui, context),
         }
         ui.take_available_space();
     });

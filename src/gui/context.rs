@@ -1,11 +1,13 @@
 //! What panels see, and how they answer: everything read-only, messages up.
 
 use std::cell::RefCell;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
+use super::accuracy::Export;
 use crate::editor::{Action, Command, Session};
 use crate::scene::{Body, Force, NodeKey, Scene};
 use crate::view;
@@ -26,6 +28,13 @@ pub enum Message {
     Tell(String),
     /// As [`Self::Tell`], for what was refused.
     Warn(String),
+    /// Asks where figures or diagrams of a study should go.
+    AskExport {
+        export: Export,
+        file_name: String,
+    },
+    /// Writes them there.
+    Export(Export, PathBuf),
 }
 
 /// Collects messages during a turn of the window.

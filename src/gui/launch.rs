@@ -126,6 +126,8 @@ enum Step {
     Method(Method),
     Tab(Tab),
     Event(usize),
+    /// Runs a study and waits for it.
+    Study,
 }
 
 struct Bench {
@@ -175,6 +177,7 @@ fn step(text: &str) -> Option<Step> {
             "method" => Some(Step::Method(Method::from_name(value)?)),
             "event" => Some(Step::Event(value.parse().ok()?)),
             "tab" if value == "problems" => Some(Step::Tab(Tab::Problems)),
+            "tab" if value == "accuracy" => Some(Step::Tab(Tab::Accuracy)),
             "tab" if value == "events" => Some(Step::Tab(Tab::Events)),
             "overlay" => {
                 let index = OVERLAYS.iter().position(|overlay| overlay.id == value)?;
@@ -182,6 +185,9 @@ fn step(text: &str) -> Option<Step> {
             }
             _ => None,
         };
+    }
+    if text == "study" {
+        return Some(Step::Study);
     }
     COMMANDS.iter().find(|row| row.id == text).map(|row| Step::Command(row.command))
 }
@@ -204,7 +210,8 @@ impl App {
         if script.steps.is_empty() && script.screenshot.is_none() && script.bench.is_none() {
             return false;
         }
-        if self.session().is_busy() || script.wait_until.is_some_and(|until| Instant::now() < until) {
+        let busy = self.session().is_busy() || self.accuracy.is_running();
+        if busy || script.wait_until.is_some_and(|until| Instant::now() < until) {
             ctx.request_repaint_after(Duration::from_millis(10));
             return true;
         }
@@ -262,6 +269,7 @@ impl App {
                 let event = self.session().frame().events.get(*index).cloned();
                 self.perform(Action::ShowEvent(event));
             }
+            Step::Study => self.run_study(ctx),
         }
         matches!(step, Step::Command(_))
     }

@@ -1,6 +1,7 @@
 //! The editor's window: panels and views in egui, over the layers `editor`, `view` and `render`.
 //! Panels get a read-only `AppContext` and send messages up; [`App`] carries them out.
 
+mod accuracy;
 mod app;
 mod colors;
 mod context;

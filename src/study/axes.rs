@@ -43,7 +43,7 @@ pub const AXES: &[Axis] = &[
         title: "Velocity error",
         column: "velocity",
         unit: "m/s",
-        meaning: "Largest difference of velocity from the reference at a sample up to the horizon.",
+        meaning: "Largest difference of velocity from the reference at a sample up to the horizon, not at impacts.",
         is_drawn: false,
         get: |point| point.velocity_error,
     },

@@ -213,6 +213,10 @@ impl<'a> Trial<'a> {
             position = position.max((own.0 - expected.0).length());
             velocity = velocity.max((own.1 - expected.1).length());
         }
+        // Velocities jump at an impact: a rounding of its time would look like a large error.
+        if self.truth.is_near_hit(truth.time, self.limits.event_window) {
+            velocity = 0.0;
+        }
         point.position_error = larger(point.position_error, Some(position));
         point.velocity_error = larger(point.velocity_error, Some(velocity));
         self.has_parted |= position > self.limits.agreement;

@@ -37,6 +37,6 @@ pub use report::{Horizon, HorizonCause, Point, Report, Stop};
 pub use run::{StudyError, run};
 pub use scale::{CurvePoint, Scale, series_of};
 pub use settings::{KNOBS, Knob, Settings, SettingsError};
-pub use table::table;
+pub use table::{Head, row_cells, row_heads, table};
 pub use text::{seconds, short};
 pub use truth::{Truth, TruthSample};

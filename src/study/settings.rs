@@ -77,7 +77,7 @@ pub const KNOBS: &[Knob] = &[
     },
     Knob {
         name: "dt",
-        label: "Δt",
+        label: "Δt list",
         unit: "s",
         reason: "Steps of the methods whose result depends on Δt. From 1/15 s, coarser than any screen, in \
                  halves to 1/960 s: enough to see the order of a method as a slope. exact has no such axis.",

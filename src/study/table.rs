@@ -12,8 +12,13 @@ pub fn table(report: &Report) -> String {
         return text;
     }
     text += "\n";
-    let mut rows = heads();
-    rows.extend(report.points.iter().map(cells));
+    let unit = |unit: &str| if unit.is_empty() { String::new() } else { format!("[{unit}]") };
+    let heads = row_heads();
+    let mut rows = vec![
+        heads.iter().map(|head| head.name.to_owned()).collect(),
+        heads.iter().map(|head| unit(head.unit)).collect::<Vec<_>>(),
+    ];
+    rows.extend(report.points.iter().map(row_cells));
     let widths: Vec<usize> = (0..rows[0].len())
         .map(|column| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0))
         .collect();
@@ -35,17 +40,29 @@ pub fn table(report: &Report) -> String {
     text
 }
 
-/// Names of the columns, and their units.
-fn heads() -> Vec<Vec<String>> {
-    let own = [("method", ""), ("Δt", ""), ("tolerance", "")];
-    let end = [("impacts", ""), ("missed", ""), ("wrong", "")];
-    let axes = columns().map(|axis| (axis.column, axis.unit));
-    let all: Vec<_> = own.into_iter().chain(axes).chain(end).collect();
-    let unit = |unit: &str| if unit.is_empty() { String::new() } else { format!("[{unit}]") };
-    vec![
-        all.iter().map(|(name, _)| (*name).to_owned()).collect(),
-        all.iter().map(|(_, of)| unit(of)).collect(),
-    ]
+/// Head of one column.
+pub struct Head {
+    pub name: &'static str,
+    /// Empty where dimensionless.
+    pub unit: &'static str,
+    pub meaning: &'static str,
+}
+
+/// The columns of the table.
+pub fn row_heads() -> Vec<Head> {
+    let plain = |name, meaning| Head { name, unit: "", meaning };
+    let mut heads = vec![
+        plain("method", "How it was stepped"),
+        plain("Δt", "Step of the methods whose result depends on it"),
+        plain("tolerance", "Field tolerance of exact, where the scene has fields"),
+    ];
+    heads.extend(columns().map(|axis| Head { name: axis.column, unit: axis.unit, meaning: axis.meaning }));
+    heads.extend([
+        plain("impacts", "Impacts of the whole run"),
+        plain("missed", "Impacts of the reference up to the horizon that the run lacks"),
+        plain("wrong", "Impacts of the run up to the horizon that the reference lacks"),
+    ]);
+    heads
 }
 
 /// The measures with a column; missed and wrong impacts have one each.
@@ -53,7 +70,8 @@ fn columns() -> impl Iterator<Item = &'static Axis> {
     AXES.iter().filter(|axis| axis.id != "missed_or_wrong")
 }
 
-fn cells(point: &Point) -> Vec<String> {
+/// The cells of one run, one for each of [`row_heads`].
+pub fn row_cells(point: &Point) -> Vec<String> {
     let number = |value: Option<f64>| value.map_or("n/a".into(), short);
     let count = |value: Option<u64>| value.map_or("n/a".into(), |value| value.to_string());
     let mut cells = vec![

@@ -70,6 +70,12 @@ impl Truth {
         truth
     }
 
+    /// Whether an impact of the reference lies within `window` of a time.
+    pub(super) fn is_near_hit(&self, time: f64, window: f64) -> bool {
+        let next = self.hits.partition_point(|hit| hit.time < time - window);
+        self.hits.get(next).is_some_and(|hit| hit.time <= time + window)
+    }
+
     /// The sample at this time, if it was asked for and lies before the horizon.
     pub fn at(&self, time: f64) -> Option<&TruthSample> {
         let nth = self.samples.partition_point(|sample| sample.time < time * (1.0 - 2.0 * SAME_TIME));

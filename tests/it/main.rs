@@ -27,6 +27,8 @@ mod editor_recovery;
 mod editor_support;
 // Undo: one point per gesture, the document alone.
 mod editor_undo;
+// The Accuracy panel: a study on its thread, its figures and files, and that it rests.
+mod gui_accuracy;
 // Editing in the window: by typing, by dragging, by commands, with undo.
 mod gui_edit;
 // Files in the window: start card, open, save, unsaved changes, the window's own dialog.

@@ -5,20 +5,48 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::{Duration, Instant};
 
 use crate::editor::Action;
+use crate::gui::accuracy::Export;
+use crate::gui::context::Message;
 
 /// What a file dialog is for.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FileRequest {
     Open,
-    Save { directory: Option<PathBuf>, file_name: String },
+    Save {
+        directory: Option<PathBuf>,
+        file_name: String,
+    },
+    /// Figures or diagrams of a study.
+    Export {
+        export: Export,
+        file_name: String,
+    },
 }
 
 impl FileRequest {
     /// What to do with the file chosen.
-    pub fn action(&self, path: PathBuf) -> Action {
+    pub fn message(&self, path: PathBuf) -> Message {
         match self {
-            Self::Open => Action::OpenPath(path),
-            Self::Save { .. } => Action::SaveTo(path),
+            Self::Open => Message::Do(Action::OpenPath(path)),
+            Self::Save { .. } => Message::Do(Action::SaveTo(path)),
+            Self::Export { export, .. } => Message::Export(*export, path),
+        }
+    }
+
+    /// Ending of the files that may be chosen.
+    pub fn extension(&self) -> &'static str {
+        match self {
+            Self::Open | Self::Save { .. } => "xml",
+            Self::Export { export, .. } => export.extension(),
+        }
+    }
+
+    /// Heading of the dialog.
+    pub fn title(&self) -> &'static str {
+        match self {
+            Self::Open => "Open a scene",
+            Self::Save { .. } => "Save the scene as",
+            Self::Export { .. } => "Export the study as",
         }
     }
 }
@@ -65,11 +93,15 @@ impl FileDialogs for NativeFileDialogs {
         let (sender, receiver) = channel();
         let (ctx, request) = (ctx.clone(), request.clone());
         std::thread::spawn(move || {
-            let dialog = rfd::FileDialog::new().add_filter("Scenes (*.xml)", &["xml"]);
+            let extension = request.extension();
+            let dialog = rfd::FileDialog::new()
+                .set_title(request.title())
+                .add_filter(format!("*.{extension}"), &[extension]);
             let chosen = match request {
                 FileRequest::Open => dialog.pick_file(),
+                FileRequest::Export { file_name, .. } => dialog.set_file_name(file_name).save_file(),
                 FileRequest::Save { directory, file_name } => {
-                    let dialog = dialog.set_title("Save the scene as").set_file_name(file_name);
+                    let dialog = dialog.set_file_name(file_name);
                     match directory {
                         Some(directory) => dialog.set_directory(directory).save_file(),
                         None => dialog.save_file(),

@@ -8,6 +8,7 @@ mod question;
 
 use egui::Context;
 
+use super::accuracy::Export;
 use super::context::AppContext;
 use crate::editor::{Action, Command, Request};
 
@@ -61,12 +62,19 @@ impl Dialogs {
         self.asked = Some(request);
     }
 
+    /// Opens a file dialog for figures or diagrams of a study.
+    pub fn ask_for_export(&mut self, ctx: &Context, export: Export, file_name: String) {
+        let request = FileRequest::Export { export, file_name };
+        self.files.ask(ctx, &request);
+        self.asked = Some(request);
+    }
+
     pub fn show(&mut self, ctx: &Context, context: &AppContext<'_>) {
         self.take_file_answer(context);
         if let Some(dialog) = &mut self.path
-            && let Some(action) = dialog.show(ctx)
+            && let Some(message) = dialog.show(ctx)
         {
-            context.outbox.act(action);
+            context.outbox.send(message);
             self.path = None;
         }
         if let Some(palette) = &mut self.palette
@@ -90,7 +98,7 @@ impl Dialogs {
         let Some(answer) = self.asked.as_ref().and_then(|_| self.files.answer()) else { return };
         let Some(request) = self.asked.take() else { return };
         match answer {
-            FileAnswer::Chosen(path) => context.outbox.act(request.action(path)),
+            FileAnswer::Chosen(path) => context.outbox.send(request.message(path)),
             FileAnswer::Cancelled => context.outbox.act(Action::DialogCancelled),
             FileAnswer::Unavailable => self.path = Some(PathDialog::new(request, context.session)),
         }

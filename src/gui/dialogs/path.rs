@@ -7,6 +7,7 @@ use egui::{Context, Id, Key, Modal, RichText, ScrollArea, TextEdit, Ui};
 use super::FileRequest;
 use crate::editor::{Action, Session};
 use crate::gui::colors::tones;
+use crate::gui::context::Message;
 
 /// Most entries of a folder listed.
 const MOST: usize = 2000;
@@ -33,6 +34,7 @@ impl PathDialog {
         let (folder, text) = match &request {
             FileRequest::Open => (beside, String::new()),
             FileRequest::Save { directory, file_name } => (directory.clone().or(beside), file_name.clone()),
+            FileRequest::Export { file_name, .. } => (beside, file_name.clone()),
         };
         let folder = folder.or_else(|| std::env::current_dir().ok()).unwrap_or_else(|| PathBuf::from("/"));
         let mut dialog = Self {
@@ -49,12 +51,12 @@ impl PathDialog {
     }
 
     /// What was decided, once it is.
-    pub fn show(&mut self, ctx: &Context) -> Option<Action> {
+    pub fn show(&mut self, ctx: &Context) -> Option<Message> {
         let opening = self.request == FileRequest::Open;
         let mut decided = None;
         let modal = Modal::new(Id::unique("path dialog")).show(ctx, |ui| {
             ui.set_width(520.0);
-            ui.heading(if opening { "Open a scene" } else { "Save the scene as" });
+            ui.heading(self.request.title());
             ui.add_space(6.0);
             self.folder_bar(ui);
             self.listing(ui, &mut decided);
@@ -72,7 +74,7 @@ impl PathDialog {
             ui.add_space(6.0);
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 if ui.button("Cancel").clicked() {
-                    decided = Some(Action::DialogCancelled);
+                    decided = Some(Message::Do(Action::DialogCancelled));
                 }
                 let verb = if opening { "Open" } else { "Save" };
                 if ui.button(verb).clicked() || entered {
@@ -81,7 +83,7 @@ impl PathDialog {
             });
         });
         if modal.should_close() && decided.is_none() {
-            decided = Some(Action::DialogCancelled);
+            decided = Some(Message::Do(Action::DialogCancelled));
         }
         decided
     }
@@ -98,7 +100,7 @@ impl PathDialog {
         });
     }
 
-    fn listing(&mut self, ui: &mut Ui, decided: &mut Option<Action>) {
+    fn listing(&mut self, ui: &mut Ui, decided: &mut Option<Message>) {
         let mut enter = None;
         egui::Frame::new().fill(ui.visuals().extreme_bg_color).inner_margin(4).show(ui, |ui| {
             ScrollArea::vertical().max_height(260.0).auto_shrink([false, false]).show(ui, |ui| {
@@ -111,7 +113,7 @@ impl PathDialog {
                         self.text.clone_from(&entry.name);
                     }
                     if response.double_clicked() && !entry.is_folder {
-                        *decided = Some(self.request.action(self.folder.join(&entry.name)));
+                        *decided = Some(self.request.message(self.folder.join(&entry.name)));
                     }
                 }
             });
@@ -121,11 +123,13 @@ impl PathDialog {
         }
     }
 
-    /// Lists folders, then scenes.
+    /// Lists folders, then files of the wanted kind.
     fn enter(&mut self, folder: PathBuf) {
         match std::fs::read_dir(&folder) {
             Ok(entries) => {
-                self.entries = entries.flatten().filter_map(|entry| listed(&entry)).take(MOST).collect();
+                let ending = self.request.extension();
+                self.entries =
+                    entries.flatten().filter_map(|entry| listed(&entry, ending)).take(MOST).collect();
                 self.entries.sort_by(|a, b| {
                     b.is_folder
                         .cmp(&a.is_folder)
@@ -138,7 +142,7 @@ impl PathDialog {
         }
     }
 
-    fn accept(&mut self) -> Option<Action> {
+    fn accept(&mut self) -> Option<Message> {
         let typed = self.text.trim();
         if typed.is_empty() {
             self.problem = Some("Type a file name, or choose a file above.".to_owned());
@@ -160,16 +164,16 @@ impl PathDialog {
             self.confirmed = Some(path);
             return None;
         }
-        Some(self.request.action(path))
+        Some(self.request.message(path))
     }
 }
 
-fn listed(entry: &std::fs::DirEntry) -> Option<Entry> {
+fn listed(entry: &std::fs::DirEntry, ending: &str) -> Option<Entry> {
     let name = entry.file_name().to_string_lossy().into_owned();
     // follows links, so that linked folders can be entered
     let is_folder = entry.path().is_dir();
-    let is_scene = name.to_lowercase().ends_with(".xml");
-    (!name.starts_with('.') && (is_folder || is_scene)).then_some(Entry { name, is_folder })
+    let is_wanted = name.to_lowercase().ends_with(&format!(".{ending}"));
+    (!name.starts_with('.') && (is_folder || is_wanted)).then_some(Entry { name, is_folder })
 }
 
 /// `~` is the user's home.
