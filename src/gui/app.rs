@@ -229,13 +229,12 @@ impl App {
         // a diagram wants more room than a list, and each keeps the height it was given
         let (name, height) =
             if self.layout.tab == Tab::Accuracy { ("accuracy", 330.0) } else { ("lists", 176.0) };
-        egui::Panel::bottom(panel(name))
-            .frame(flush)
-            .default_size(height)
-            .size_range(60.0..=560.0)
-            .show(ui, |ui| {
-                lists(ui, &context, (&mut self.problems, &mut self.accuracy), &mut self.layout.tab)
-            });
+        egui::Panel::bottom(panel(name)).frame(flush).default_size(height).size_range(60.0..=560.0).show(
+            ui,
+            |ui| {
+                lists(ui, &context, (&mut self.problems, &mut self.accuracy), &mut self.layout.tab);
+            },
+        );
         egui::Panel::bottom("strip").frame(flush).exact_size(strip::HEIGHT).show(ui, |ui| {
             strip::show(ui, &context);
         });
