@@ -229,6 +229,11 @@ impl Simulation {
         &self.model.plan
     }
 
+    /// Bytes in which the motion of the dynamic bodies is stored: more where it is integrated.
+    pub fn motion_bytes(&self) -> usize {
+        self.state.motion_bytes()
+    }
+
     /// The occupied tiles, at most `limit` of them.
     pub fn tiling(&self, limit: usize) -> Tiling {
         monitor::tiling(&self.model, &self.state, limit)

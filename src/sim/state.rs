@@ -126,6 +126,10 @@ impl State {
         Mover { path: self.path(body), radius: model.radii[body as usize] }
     }
 
+    pub fn motion_bytes(&self) -> usize {
+        size_of_val(self.segments.as_slice()) + size_of_val(self.fields.as_slice())
+    }
+
     pub fn position(&self, body: u32, time: f64) -> DVec3 {
         self.path(body).position(time)
     }

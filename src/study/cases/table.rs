@@ -81,6 +81,6 @@ fn shown(value: f64) -> String {
     } else if (0.1..1e4).contains(&value.abs()) {
         format!("{value:.2}")
     } else {
-        format!("{value:.1e}")
+        format!("{value:.1e}").replace(".0e", "e")
     }
 }

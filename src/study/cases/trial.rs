@@ -87,14 +87,15 @@ impl Trial {
         see: &mut impl FnMut(&Simulation, Option<&Event>) -> Result<(), Stop>,
     ) -> Result<(), Stop> {
         loop {
-            match sim.work(PORTION)? {
-                Progress::Done => return Ok(()),
-                Progress::Event(event) => see(sim, Some(&event))?,
-                Progress::Working => {}
-            }
+            let progress = sim.work(PORTION)?;
             let segments = sim.counters().segments;
             if segments > self.budget {
                 return Err(Stop::Stalled { time: sim.time(), segments });
+            }
+            match progress {
+                Progress::Done => return Ok(()),
+                Progress::Event(event) => see(sim, Some(&event))?,
+                Progress::Working => {}
             }
         }
     }
