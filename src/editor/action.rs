@@ -27,6 +27,8 @@ pub enum Action {
     SelectPlace(Place),
     /// Shows the place of an event in the views.
     ShowEvent(Option<Arc<EventRow>>),
+    /// Shows the event of this number and selects its bodies; goes back to it unless it is listed.
+    GoToEvent(u64),
 
     /// Δt as typed.
     SetDt(String),

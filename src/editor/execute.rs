@@ -18,6 +18,7 @@ impl Session {
             Action::ToggleSelected(key) => self.selection.toggle(key),
             Action::SelectPlace(place) => self.selection.set_place(place),
             Action::ShowEvent(event) => self.shown_event = event,
+            Action::GoToEvent(seq) => self.go_to_event(seq),
             Action::SetDt(text) => return self.set_dt(&text),
             Action::SetSpeed(speed) => self.set_speed(speed),
             Action::SetMethod(method) => self.set_method(method),
@@ -150,5 +151,23 @@ impl Session {
     pub(super) fn can_finish_step(&self) -> Result<(), &'static str> {
         self.can_run()?;
         if self.frame.open_step.is_some() { Ok(()) } else { Err("no Δt is open; Next event opens one") }
+    }
+
+    /// Shows an event that is listed, or goes back to it.
+    fn go_to_event(&mut self, seq: u64) {
+        if !self.frame.events.iter().any(|row| row.event.seq == seq) {
+            self.go_back(RunCommand::GoTo { event: seq });
+        }
+        self.awaited_event = Some(seq);
+        self.show_awaited_event();
+    }
+
+    pub(super) fn show_awaited_event(&mut self) {
+        let Some(seq) = self.awaited_event else { return };
+        let Some(row) = self.frame.events.iter().find(|row| row.event.seq == seq).cloned() else { return };
+        let keys: Vec<_> = [Some(row.a_key), row.b_key].into_iter().flatten().collect();
+        self.selection.set(&keys);
+        self.shown_event = Some(row);
+        self.awaited_event = None;
     }
 }

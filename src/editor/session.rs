@@ -34,6 +34,8 @@ pub struct Session {
     pub(super) after_save: Option<Intent>,
     pub(super) frame: Arc<Frame>,
     pub(super) shown_event: Option<Arc<EventRow>>,
+    /// Number of an event to show as soon as a frame lists it.
+    pub(super) awaited_event: Option<u64>,
     pub(super) opened: u64,
     runner: Box<dyn Runner>,
     /// The scene that the runner runs; `None` when it has none.
@@ -92,6 +94,7 @@ impl Session {
             after_save: None,
             frame: runner.frame(),
             shown_event: None,
+            awaited_event: None,
             opened: 0,
             runner,
             running: None,
@@ -242,6 +245,7 @@ impl Session {
         if self.shown_event.as_ref().is_some_and(|row| !listed(row)) {
             self.shown_event = None;
         }
+        self.show_awaited_event();
         self.sync_when_settled(now);
         if self.open_gesture().is_none() {
             self.keep_recovery(now);
@@ -393,7 +397,7 @@ impl Session {
         if !matches!(command, RunCommand::Play { .. }) {
             self.stop_playing();
         }
-        self.shown_event = None;
+        (self.shown_event, self.awaited_event) = (None, None);
         self.runner.send(command);
         self.playback.went_on();
     }
@@ -401,7 +405,7 @@ impl Session {
     pub(super) fn go_back(&mut self, command: RunCommand) {
         self.settle();
         self.stop_playing();
-        self.shown_event = None;
+        (self.shown_event, self.awaited_event) = (None, None);
         self.runner.send(command);
         self.playback.went_back(&self.frame);
     }

@@ -296,6 +296,7 @@ impl App {
                 self.tree.rename(key, &context);
             }
             Message::ShowProblems => self.layout.tab = Tab::Problems,
+            Message::ShowEvents => self.layout.tab = Tab::Events,
             Message::OverlaysInAllViews(overlays) => self.views.set_overlays(overlays),
             Message::Tell(text) => self.toasts.add(Notice::info(text)),
             Message::Warn(text) => self.toasts.add(Notice::warning(text)),

@@ -23,6 +23,7 @@ pub enum Message {
     /// Opens the name field of a row of the scene tree.
     Rename(NodeKey),
     ShowProblems,
+    ShowEvents,
     OverlaysInAllViews(view::OverlaySet),
     /// A short message, as a toast.
     Tell(String),

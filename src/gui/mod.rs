@@ -3,6 +3,7 @@
 
 mod accuracy;
 mod app;
+mod badge;
 mod colors;
 mod context;
 mod dialogs;

@@ -4,8 +4,8 @@ use egui::{RichText, Ui};
 
 use super::colors::tones;
 use super::context::AppContext;
-use super::numbers;
 use super::widgets::mono;
+use super::{badge, numbers};
 use crate::record::Frame;
 use crate::sim::Method;
 
@@ -30,13 +30,7 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>, pace: &Pace) {
         item(ui, "bodies", &body_text(frame), 56.0, "Moving + static bodies in the simulation");
         let per_s = numbers::significant(frame.events_per_s, 3);
         item(ui, "events/s", &per_s, 48.0, "Events per second of computing, smoothed");
-        residuals(ui, frame);
-        let overlap = if frame.worst_overlap > 0.0 {
-            format!("{} m", numbers::tiny(frame.worst_overlap))
-        } else {
-            "0 m".to_owned()
-        };
-        item(ui, "overlap", &overlap, 48.0, "Deepest overlap of any two bodies now, by looking at them all");
+        badge::show(ui, context);
         item(ui, "step", &numbers::duration(frame.step_wall_s), 58.0, "Computing time of the last Δt");
         item(ui, "frame", &numbers::duration(pace.frame_s), 58.0, "Time the window took to draw itself last");
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| version(ui, context));
@@ -57,28 +51,15 @@ fn version(ui: &mut Ui, context: &AppContext<'_>) {
     ui.label(RichText::new(text).small().color(tones(ui).weak)).on_hover_text(help);
 }
 
-fn residuals(ui: &mut Ui, frame: &Frame) {
-    let energy = frame.energy.and_then(|energy| energy.residual);
-    let text = energy.map_or("–".to_owned(), numbers::tiny);
-    let total = frame.energy.and_then(|energy| energy.total);
-    let help = format!(
-        "Energy residual: change of the total energy that impacts, drag and edits do not explain, over \
-         the energy at the start.{}",
-        total.map_or(String::new(), |total| format!(" Total energy: {} J.", numbers::significant(total, 9))),
-    );
-    item(ui, "ΔE", &text, 48.0, &help);
-    let momentum = frame.momentum.as_ref();
-    let text = momentum.map_or("–".to_owned(), |momentum| numbers::tiny(momentum.residual));
-    let help = "Momentum residual: change of the momentum that forces and static bodies do not explain, \
-                over the largest sum of momenta so far";
-    item(ui, "Δp", &text, 48.0, help);
-}
-
 fn item(ui: &mut Ui, name: &str, value: &str, width: f32, help: &str) {
     let weak = tones(ui).weak;
     let response = ui
         .scope(|ui| {
             ui.label(RichText::new(name).small().color(weak));
+            // numbers stay in their places; one that is too long takes the room it needs
+            let font = egui::FontId::monospace(11.5);
+            let wanted = ui.fonts_mut(|fonts| fonts.layout_no_wrap(value.to_owned(), font, weak).size().x);
+            let width = width.max(wanted + 6.0);
             let (rect, _) = ui.allocate_exact_size(egui::vec2(width, 16.0), egui::Sense::hover());
             let mut inner = ui.new_child(
                 egui::UiBuilder::new()

@@ -36,6 +36,10 @@ pub enum RunCommand {
     /// One Δt back, one event back.
     StepBack,
     EventBack,
+    /// Back to the event of this number; the Δt around it is open then.
+    GoTo {
+        event: u64,
+    },
     /// Changes the running scene now.
     Edit(Box<SimEdit>),
 }

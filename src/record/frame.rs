@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::Jump;
 use crate::scene::{Diagnostic, NodeKey};
 use crate::sim::{ContactState, Counters, Energy, Event, Method, Momentum, Plan, Tiling};
 
@@ -73,6 +74,8 @@ pub struct Frame {
     pub event_count: u64,
     pub energy: Option<Energy>,
     pub momentum: Option<Momentum>,
+    /// Where the energy residual changed most since the start.
+    pub largest_jump: Option<Jump>,
     /// Deepest overlap in any frame since the start, m.
     pub worst_overlap: f64,
     pub counters: Counters,

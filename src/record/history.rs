@@ -184,6 +184,12 @@ impl Run {
         let at_event =
             history.time_of(self.last_event) == Some(self.simulation.time()) && self.grid.open.is_some();
         let target = if at_event { self.last_event.saturating_sub(1) } else { self.last_event };
+        self.back_to_event(target);
+    }
+
+    /// Back to an event that was reached before; the Δt around it is open then.
+    pub(super) fn back_to_event(&mut self, target: u64) {
+        let history = &self.history;
         let Some(time) = history.time_of(target) else { return };
         let Some(index) =
             history.ticks.iter().rposition(|tick| tick.at.event < target && tick.at.time <= time)
@@ -210,6 +216,7 @@ impl Run {
         self.simulation.restore(&key.snapshot);
         self.grid = key.grid;
         self.last_event = key.at.event;
+        self.drift.rewind(&self.simulation, key.at.event);
         self.history.applied = key.edits;
         self.run_to(from.at);
         self.rows = Rows::default();

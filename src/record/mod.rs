@@ -1,6 +1,7 @@
 //! Driving a simulation: commands in, published frames out, on this thread or on one of its own.
 
 mod command;
+mod drift;
 mod frame;
 mod history;
 mod inline;
@@ -11,6 +12,7 @@ mod thread;
 use std::sync::Arc;
 
 pub use command::RunCommand;
+pub use drift::Jump;
 pub use frame::{BodyFrame, EventRow, Frame, RunState};
 pub use inline::InlineRunner;
 pub use thread::ThreadRunner;

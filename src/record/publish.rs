@@ -51,6 +51,7 @@ fn with_run(base: Frame, run: &Run) -> Frame {
         event_count: run.last_event,
         energy: Some(simulation.energy()),
         momentum: Some(simulation.momentum()),
+        largest_jump: run.drift.largest(),
         worst_overlap: run.worst_overlap,
         counters: simulation.counters(),
         plan: Arc::new(plan.clone()),

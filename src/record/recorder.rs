@@ -4,6 +4,7 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
+use super::drift::Drift;
 use super::history::History;
 use super::{EventRow, RunCommand, RunState};
 use crate::scene::{Diagnostic, Scene};
@@ -32,6 +33,7 @@ pub(super) struct Run {
     pub(super) grid: StepGrid,
     pub(super) rows: Rows,
     pub(super) history: History,
+    pub(super) drift: Drift,
     /// Deepest overlap at any time looked at so far, m.
     pub(super) worst_overlap: f64,
     /// Number of the last event reached.
@@ -262,6 +264,7 @@ impl Recorder {
             }
             RunCommand::StepBack => run.step_back(),
             RunCommand::EventBack => run.event_back(),
+            RunCommand::GoTo { event } => run.back_to_event(event),
             RunCommand::Step { .. } | RunCommand::NextEvent { .. } | RunCommand::Play { .. } => {
                 run.message = Some("Δt and speed must be above zero".into());
             }
@@ -312,6 +315,7 @@ impl Run {
             grid: StepGrid::new(),
             rows: Rows::default(),
             history,
+            drift: Drift::default(),
             last_event: 0,
             message: None,
             faulted: false,
@@ -366,6 +370,7 @@ impl Run {
     pub(super) fn note(&mut self, event: &Event) {
         self.last_event = event.seq;
         self.history.note_event(event);
+        self.drift.note(&self.simulation, event);
         if self.rows.list.len() >= MAX_ROWS {
             self.rows.list.pop_front();
             self.rows.truncated = true;

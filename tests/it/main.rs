@@ -29,6 +29,8 @@ mod editor_support;
 mod editor_undo;
 // The Accuracy panel: a study on its thread, its figures and files, and that it rests.
 mod gui_accuracy;
+// The error badge: what it says, and that a click goes to the event it names.
+mod gui_badge;
 // Editing in the window: by typing, by dragging, by commands, with undo.
 mod gui_edit;
 // Files in the window: start card, open, save, unsaved changes, the window's own dialog.
@@ -53,6 +55,8 @@ mod hard_verb;
 mod layering;
 // Runners with the methods that step by Δt: going back at the Δt of then.
 mod record_methods;
+// The event at which the residual changed most, and going back to it.
+mod record_drift;
 // Runners: the Δt grid, going back, edits with their stamps, playing.
 mod record_runner;
 // Pictures drawn in software without a window: silhouettes against their areas, depth order, caching.

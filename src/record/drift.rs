@@ -1,0 +1,56 @@
+//! At which event the books were off most: the energy residual is looked at after every event, and the
+//! largest change of it is remembered together with the event.
+
+use crate::sim::{Event, Simulation};
+
+/// A change of the residual.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Jump {
+    /// Number of the event; the flights since the one looked at before are part of the change.
+    pub event: u64,
+    /// s.
+    pub time: f64,
+    /// Size of the change of the energy residual (of the momentum residual where a force has no potential).
+    pub size: f64,
+}
+
+/// Adding energies up costs a look at all bodies: with more than this, not every event is looked at.
+const BODIES_PER_EVENT: u64 = 64;
+
+#[derive(Clone, Debug, Default)]
+pub(super) struct Drift {
+    residual: f64,
+    /// Events since the residual was looked at.
+    since: u64,
+    /// Jumps larger than all before them, so that going back leaves the largest of what remains.
+    records: Vec<Jump>,
+}
+
+impl Drift {
+    pub(super) fn largest(&self) -> Option<Jump> {
+        self.records.last().copied()
+    }
+
+    pub(super) fn note(&mut self, simulation: &Simulation, event: &Event) {
+        self.since += 1;
+        if self.since * BODIES_PER_EVENT < simulation.dynamic_count() as u64 {
+            return;
+        }
+        let residual = residual_of(simulation);
+        let size = (residual - self.residual).abs();
+        (self.residual, self.since) = (residual, 0);
+        if self.records.last().is_none_or(|last| event.seq > last.event && size > last.size) && size > 0.0 {
+            self.records.push(Jump { event: event.seq, time: event.time, size });
+        }
+    }
+
+    /// The simulation was put back to where it was after this event.
+    pub(super) fn rewind(&mut self, simulation: &Simulation, event: u64) {
+        self.records.retain(|jump| jump.event <= event);
+        (self.residual, self.since) = (residual_of(simulation), 0);
+    }
+}
+
+fn residual_of(simulation: &Simulation) -> f64 {
+    simulation.energy().residual.unwrap_or_else(|| simulation.momentum().residual)
+}

@@ -1,0 +1,61 @@
+//! The event at which the residual changed most: found, kept while going back, and gone back to.
+
+use polyscene::record::{InlineRunner, RunCommand, Runner as _};
+use polyscene::sim::Method;
+
+use crate::common::load::load;
+
+fn runner(method: Method) -> InlineRunner {
+    let mut runner = InlineRunner::new();
+    runner.send(RunCommand::Method(method));
+    runner.send(RunCommand::Load(Box::new(load("thesis-appendix-2.xml"))));
+    runner
+}
+
+/// Number of each event and the energy residual right after it.
+fn residuals(runner: &mut InlineRunner, count: usize) -> Vec<(u64, f64)> {
+    let mut residuals = Vec::new();
+    while residuals.len() < count {
+        runner.send(RunCommand::NextEvent { dt: 1.0 / 60.0 });
+        let frame = runner.frame();
+        let residual = frame.energy.and_then(|energy| energy.residual).expect("both forces have potentials");
+        residuals.push((frame.event_count, residual));
+    }
+    residuals
+}
+
+#[test]
+fn the_largest_change_of_the_residual_is_named() {
+    for method in [Method::Exact, Method::Thesis] {
+        let mut runner = runner(method);
+        assert_eq!(runner.frame().largest_jump, None);
+        let residuals = residuals(&mut runner, 20);
+        let before = std::iter::once(0.0).chain(residuals.iter().map(|(_, residual)| *residual));
+        let (mut event, mut size) = (0, 0.0);
+        for (before, (seq, after)) in before.zip(&residuals) {
+            if (after - before).abs() > size {
+                (event, size) = (*seq, (after - before).abs());
+            }
+        }
+        let jump = runner.frame().largest_jump.expect("a jump");
+        assert_eq!((jump.event, jump.size.to_bits()), (event, size.to_bits()), "{method:?}");
+    }
+}
+
+#[test]
+fn going_to_an_event_stands_right_there_and_forgets_later_jumps() {
+    let mut runner = runner(Method::Thesis);
+    let seen = residuals(&mut runner, 20);
+    for target in [15, 9, 2] {
+        runner.send(RunCommand::GoTo { event: target });
+        let frame = runner.frame();
+        assert_eq!(frame.event_count, target);
+        assert_eq!(frame.events.last().map(|row| row.event.seq), Some(target));
+        let residual = frame.energy.and_then(|energy| energy.residual);
+        assert_eq!(residual.map(f64::to_bits), Some(seen[target as usize - 1].1.to_bits()));
+        assert!(frame.largest_jump.is_some_and(|jump| jump.event <= target), "{:?}", frame.largest_jump);
+    }
+    let frame = runner.frame();
+    runner.send(RunCommand::GoTo { event: 1_000_000 });
+    assert_eq!(runner.frame().event_count, frame.event_count, "there is no such event");
+}
