@@ -30,6 +30,8 @@ window editor thesis-appendix-2 'dt:1,step_forward*5,next_event*3,select:5853'
 window accuracy thesis-appendix-2 'tab:accuracy,study'
 window tiles gas 'dt:1/10,step_forward*20,view_perspective,overlay:tiles,maximize_view'
 
+"$polyscene" study scenes/thesis-appendix-2.xml --svg screenshots/study.svg >/dev/null
+
 # Where a scene shows most, in seconds of model time; others are shown at 2 s.
 declare -A moment=([bullet]=0.0101 [cradle]=1 [orbit]=5)
 for scene in scenes/*.xml; do

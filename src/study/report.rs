@@ -143,6 +143,9 @@ impl Report {
         let checked =
             format!("{impacts} impact{plural}, own error estimate {} m there", super::short(*error));
         match cause {
+            HorizonCause::Unknown(what) if *time == 0.0 => {
+                format!("Not compared with the independent reference: {what}. Only invariants count.")
+            }
             HorizonCause::WholeRun => {
                 format!("Compared with the independent reference over the whole {until} ({checked}).")
             }

@@ -11,7 +11,7 @@ use polyscene::study::{
 };
 use quick_xml::events::Event;
 
-use crate::common::build::{Build, empty};
+use crate::common::build::{Build, Shaped, ball, empty};
 use crate::common::load::load;
 
 /// Few Δt and timings, so that a test does not wait for figures it does not look at.
@@ -111,6 +111,20 @@ fn wrong_laws_are_found_out() {
     let hollow = judged(&hollow);
     assert_eq!((hollow.impacts, hollow.wrong), (0, Some(0)), "{hollow:?}");
     assert!(hollow.missed > Some(3) && hollow.first_difference.is_some(), "{hollow:?}");
+}
+
+#[test]
+fn what_the_reference_does_not_know_is_left_to_the_invariants() {
+    let scene =
+        empty().gravity(-9.8).floor(1, 3.0).body(ball(2, dvec3(5.0, 0.5, 5.0), DVec3::ZERO).bounce(0.0));
+    let report = study(&scene, &quick(1.0));
+    assert_eq!(report.horizon.time, 0.0, "{:?}", report.horizon);
+    let statement = report.horizon_statement();
+    assert!(statement.starts_with("Not compared") && statement.contains("stay in contact"), "{statement}");
+    let point = exact(&report);
+    assert_eq!((point.position_error, point.missed, point.follows_until), (None, None, None), "{point:?}");
+    assert!(point.energy_residual.is_some_and(|residual| residual < 1e-12), "{point:?}");
+    svg(&report).expect("a picture without positions");
 }
 
 #[test]
