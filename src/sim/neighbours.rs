@@ -73,11 +73,16 @@ fn predict_leaving(model: &Model, state: &mut State, body: u32, time: f64) {
             if limit == f64::INFINITY {
                 continue;
             }
-            let beyond = if path.series.is_some() {
-                first_beyond(path, side * unit, limit, 0.5 * margin, time)
-            } else {
-                let distance = limit - side * x[axis];
-                first_root(distance, -side * v[axis], -side * a[axis]).map(|tau| time + tau)
+            let (distance, rate) = (limit - side * x[axis], -side * v[axis]);
+            // Where |ẍ| ≤ A keeps the body from the limit until the segment ends, one look tells.
+            let bend = if path.series.is_some() { -path.segment.acceleration_bound } else { -side * a[axis] };
+            let Some(tau) = first_root(distance, rate, bend) else { continue };
+            if time + tau > path.segment.end {
+                continue;
+            }
+            let beyond = match path.series {
+                Some(_) => first_beyond(path, side * unit, limit, 0.5 * margin, time),
+                None => Some(time + tau),
             };
             leaving = leaving.min(beyond.unwrap_or(f64::INFINITY));
         }
