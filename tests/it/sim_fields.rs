@@ -249,11 +249,8 @@ fn a_fault_while_a_segment_begins_books_nothing_twice() {
     // The force breaks at 1 s; removed, the run goes on and the books still close.
     let broken: Arc<dyn Force> = Arc::new(Written(
         |on: &Subject<'_>| {
-            if on.time >= 1.0 {
-                (DVec3::NAN, 0.0)
-            } else {
-                (DVec3::X * on.position.x, -0.5 * on.position.x.powi(2))
-            }
+            let force = if on.time >= 1.0 { DVec3::NAN } else { DVec3::X * on.position.x };
+            (force, -0.5 * on.position.x.powi(2))
         },
         true,
     ));

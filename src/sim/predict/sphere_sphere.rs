@@ -37,6 +37,7 @@ pub(super) fn first_contact(a: Mover<'_>, b: Mover<'_>, params: &SimParams, from
 }
 
 /// Without branches but one, so that the looks at many bodies overlap in the processor.
+#[inline]
 pub(super) fn surely_pass(a: Mover<'_>, b: Mover<'_>) -> bool {
     let (seg_a, seg_b) = (a.path.segment, b.path.segment);
     if seg_a.step > 0.0 || seg_b.step > 0.0 || seg_a.a != seg_b.a {
