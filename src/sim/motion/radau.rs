@@ -197,12 +197,7 @@ fn correct(
         largest = a0.length();
         for n in 1..=SERIES {
             let tau = NODES[n] * step;
-            let (mut position_term, mut velocity_term) = (DVec3::ZERO, DVec3::ZERO);
-            // From the smallest term up.
-            for (b, (for_position, for_velocity)) in series.b.iter().zip(&WEIGHTS[n]).rev() {
-                position_term += *for_position * b;
-                velocity_term += *for_velocity * b;
-            }
+            let (position_term, velocity_term) = terms_at(&series, n);
             let way = tau * (start.v + tau * (0.5 * a0 + position_term));
             let v = start.v + tau * (a0 + velocity_term);
             let a = field(start.time + tau, way, v);
@@ -239,6 +234,16 @@ fn correct(
     converged |= last_change < 1e-3 * start.tolerance;
     let last = (series.b[SERIES - 1].length() - noise).max(0.0);
     Attempt { series, converged, error: last / scale(largest, start.v, step) }
+}
+
+/// [`Series::position_term`] and [`Series::velocity_term`] at a node, summed from the smallest term up.
+fn terms_at(series: &Series, node: usize) -> (DVec3, DVec3) {
+    let (mut position, mut velocity) = (DVec3::ZERO, DVec3::ZERO);
+    for (b, (for_position, for_velocity)) in series.b.iter().zip(&WEIGHTS[node]).rev() {
+        position += *for_position * b;
+        velocity += *for_velocity * b;
+    }
+    (position, velocity)
 }
 
 /// What the rounding of the position does to an acceleration that changes by `rise` over `way`, m/s².
