@@ -27,6 +27,10 @@ pub(super) struct Monitor {
 
 /// Above this many bodies an event has only its own bodies looked at, against all others.
 const SMALL: usize = 64;
+/// Above this many not even every event has: all against all would cost more than the run itself.
+const LARGE: usize = 2000;
+/// Of the events of such a scene one in so many is looked at.
+const STRIDE: u64 = 64;
 
 impl Monitor {
     pub(super) fn new(scene: &Scene, sim: &Simulation) -> Result<Self, Stop> {
@@ -63,6 +67,7 @@ impl Monitor {
     /// Looks at the simulation now.
     pub(super) fn look(&mut self, sim: &Simulation, event: Option<&Event>) {
         match event {
+            Some(event) if self.balls.len() > LARGE && event.seq % STRIDE != 0 => {}
             Some(event) if self.balls.len() > SMALL => {
                 for body in [Some(event.a), event.b].into_iter().flatten() {
                     self.look_around(sim, body);
