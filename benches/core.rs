@@ -126,7 +126,7 @@ fn median(values: &mut [f64]) -> f64 {
     values[values.len() / 2]
 }
 
-/// Growth of the resident set by a simulation that has run for a while, without the scene it was made from. In
+/// Growth of the resident memory by a simulation that has run for a while, without code and the scene. In
 /// a process of its own, where no memory is left over from before. Known on Linux only.
 fn bytes_per_sphere(count: u32, packing: f64) -> Option<u64> {
     let program = std::env::current_exe().ok()?;
@@ -152,7 +152,7 @@ fn print_memory(count: &str, packing: &str) {
 
 fn resident_bytes() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find(|line| line.starts_with("VmRSS:"))?;
+    let line = status.lines().find(|line| line.starts_with("RssAnon:"))?;
     let kib: u64 = line.split_whitespace().nth(1)?.parse().ok()?;
     Some(1024 * kib)
 }

@@ -198,7 +198,7 @@ mod tests {
             ((seed >> 11) % u64::from(below)) as u32
         };
         let mut range = || {
-            let low = grid.counts.map(|count| random(count));
+            let low = grid.counts.map(&mut random);
             let high = std::array::from_fn(|axis| (low[axis] + random(3)).min(grid.counts[axis] - 1));
             (TileRange { low, high }, random(60))
         };
