@@ -19,7 +19,7 @@ impl Default for SimParams {
         Self {
             field_tolerance: 1e-9,
             rest_speed: 1e-5,
-            rest_time: 1e-5,
+            rest_time: 1e-2,
             contact_duration: 4e-5,
             collapse_count: 32.0,
             contact_distance: 1e-9,
@@ -75,7 +75,8 @@ pub const PARAMS: &[ParamInfo] = &[
         unit: "s",
         range: (0.0, 1.0),
         help: "Longest sum of remaining flights 2v/(g(1−e)) that is skipped when a body comes to rest. \
-               Keeps a nearly elastic body bouncing until the sum is short.",
+               The forces count as constant over that time; the rest event comes at its end. Keeps a nearly \
+               elastic body bouncing until the sum is short.",
         get: |p| p.rest_time,
         set: |p, v| p.rest_time = v,
     },
@@ -85,8 +86,7 @@ pub const PARAMS: &[ParamInfo] = &[
         unit: "s",
         range: (1e-9, 1.0),
         help: "Impacts of one body that follow each other within this time count as one cascade; see \
-               Collapse count. Two moving bodies that press against each other part for half of it at a \
-               time instead of touching without end. Smaller follows a collapse further and takes longer.",
+               Collapse count. Smaller follows a collapse further and takes longer.",
         get: |p| p.contact_duration,
         set: |p, v| p.contact_duration = v,
     },
@@ -95,8 +95,8 @@ pub const PARAMS: &[ParamInfo] = &[
         label: "Collapse count",
         unit: "",
         range: (1.0, 1e6),
-        help: "Impacts of one cascade that lose energy before the rest of it is taken as elastic, so that \
-               an inelastic collapse stays finite (Luding & McNamara 1998). Above the length of chains of \
+        help: "Impacts of one cascade that lose energy before the rest of it is taken as plastic \
+               (restitution 0), so that an inelastic collapse stays finite. Above the length of chains of \
                touching balls, so that those keep their restitution.",
         get: |p| p.collapse_count,
         set: |p, v| p.collapse_count = v.round(),
@@ -106,8 +106,8 @@ pub const PARAMS: &[ParamInfo] = &[
         label: "Contact distance",
         unit: "m",
         range: (1e-12, 1e-3),
-        help: "Overlaps at the start are reported above this, and moving bodies that press against each \
-               other overlap by less than this. Above rounding at map sizes up to 1e5 m.",
+        help: "Bodies nearer than this at an impact touch: they are resolved as one group. Overlaps at the \
+               start are reported above it. Above rounding at map sizes up to 1e5 m.",
         get: |p| p.contact_distance,
         set: |p, v| p.contact_distance = v,
     },

@@ -7,6 +7,7 @@ use glam::DVec3;
 
 use super::account::{book_segment, energies, momentum_value};
 use super::compile::{Compiled, check_force, compile_body};
+use super::contact::Partner;
 use super::engine::record;
 use super::force::{Force, ForceEntry, Law};
 use super::method::begin_all;
@@ -112,20 +113,8 @@ fn restart_all(
     state.account.edit_work.add(kinetic + potential.unwrap_or(0.0) - before.energy);
     let momentum = momentum_value(model, state, time).0;
     state.account.impulses.add(momentum - before.momentum);
-    let event = Event {
-        seq: 0,
-        time,
-        kind: EventKind::Edit,
-        a: changed.unwrap_or(BodyRef::NONE),
-        b: None,
-        point: changed.map_or(DVec3::ZERO, |body| place_of(model, state, body)),
-        normal: DVec3::ZERO,
-        impulse: 0.0,
-        vn_before: 0.0,
-        vn_after: 0.0,
-        group: 0,
-    };
-    record(state, event);
+    let place = changed.map_or(DVec3::ZERO, |body| place_of(model, state, body));
+    record(state, Event::of_one(time, EventKind::Edit, changed.unwrap_or(BodyRef::NONE), place));
     begin_all(model, state)
 }
 
@@ -184,12 +173,14 @@ fn remove(model: &mut Model, state: &mut State, key: NodeKey) -> Result<Option<B
             state.moving.remove(&model.grid, state.registered[index as usize], index);
             // Nothing predicted about it holds any more.
             state.stamps[index as usize] = state.stamps[index as usize].wrapping_add(1);
+            state.forget_touching(index);
             state.contacts[index as usize].clear();
+            drop_contacts_with(state, Partner::Dynamic(index));
         }
         BodyRef::Static(index) => {
             model.fixtures[index as usize].present = false;
             remake_static_tiles(model);
-            drop_contacts_with(state, index);
+            drop_contacts_with(state, Partner::Static(index));
         }
     }
     Ok(Some(body))
@@ -207,7 +198,7 @@ fn change_static(model: &mut Model, state: &mut State, body: &Body) -> Result<Bo
         }
     }
     remake_static_tiles(model);
-    drop_contacts_with(state, index);
+    drop_contacts_with(state, Partner::Static(index));
     Ok(BodyRef::Static(index))
 }
 
@@ -249,8 +240,8 @@ fn remake_static_tiles(model: &mut Model) {
     model.static_tiles = StaticTiles::new(&model.grid, &model.fixtures, limit);
 }
 
-fn drop_contacts_with(state: &mut State, fixture: u32) {
+fn drop_contacts_with(state: &mut State, partner: Partner) {
     for contacts in &mut state.contacts {
-        contacts.retain(|contact| contact.fixture != fixture);
+        contacts.retain(|contact| contact.partner != partner);
     }
 }

@@ -1,20 +1,55 @@
-//! Lasting contact of a sphere with static bodies: it rests, or slides without friction.
-//!
-//! On flat faces the motion stays a parabola: the acceleration is projected onto the cone of directions
-//! that do not enter a surface (Moreau's tangent cone), which is where the contact forces that only push,
-//! and only where pressed, leave it. On an edge, a corner or a static sphere the path is curved and is
-//! integrated like a field, with the centripetal acceleration |v⊥|²/ρ towards the centre of curvature.
+//! Lasting contact of a sphere with a static body or another sphere: it rests, or slides without friction.
 
 use glam::DVec3;
 
+use super::BodyRef;
+use super::constraint::Link;
 use super::model::{Fixture, FixtureShape, Model};
 use super::predict::{Feature, closest_on_plate};
 
-/// One lasting contact of a dynamic body.
+/// What a body touches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Partner {
+    Dynamic(u32),
+    Static(u32),
+}
+
+/// Two bodies that touch; of two dynamic ones `a` is the one with the smaller index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Pair {
+    pub a: u32,
+    pub partner: Partner,
+}
+
+impl Pair {
+    pub fn new(body: u32, partner: Partner) -> Self {
+        match partner {
+            Partner::Dynamic(other) if other < body => Self { a: other, partner: Partner::Dynamic(body) },
+            _ => Self { a: body, partner },
+        }
+    }
+
+    /// The other dynamic body.
+    pub fn other(&self) -> Option<u32> {
+        match self.partner {
+            Partner::Dynamic(other) => Some(other),
+            Partner::Static(_) => None,
+        }
+    }
+
+    pub fn refs(&self) -> (BodyRef, BodyRef) {
+        let other = match self.partner {
+            Partner::Dynamic(other) => BodyRef::Dynamic(other),
+            Partner::Static(fixture) => BodyRef::Static(fixture),
+        };
+        (BodyRef::Dynamic(self.a), other)
+    }
+}
+
+/// One lasting contact of a dynamic body. Two dynamic bodies in contact list each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Contact {
-    /// Index of the static body.
-    pub fixture: u32,
+    pub partner: Partner,
     pub surface: Surface,
     /// When the last of the skipped bounces would end, until that time has come.
     pub settles_at: Option<f64>,
@@ -25,170 +60,68 @@ pub(super) struct Contact {
 pub(super) enum Surface {
     /// A face; the unit vector points from the body into it.
     Flat(DVec3),
-    /// A static sphere, an edge or a corner.
+    /// A sphere, an edge or a corner.
     Round,
 }
 
-/// The geometry of a contact where the body is now.
+/// What a body at `position` touches of a static one.
+pub(super) fn surface_of(fixture: &Fixture, position: DVec3) -> Surface {
+    match &fixture.shape {
+        FixtureShape::Sphere { .. } => Surface::Round,
+        FixtureShape::Plate(plate) => {
+            let near = closest_on_plate(plate, position);
+            if near.feature == Feature::Face { Surface::Flat(near.towards) } else { Surface::Round }
+        }
+    }
+}
+
+/// Some bodies at one time, in the order of their indices.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Touch {
-    /// Unit vector from the body into the surface.
-    pub towards: DVec3,
-    /// Acceleration towards the surface that keeps the body on its curve at this velocity, m/s².
-    pub centripetal: f64,
+pub(super) struct Bodies<'a> {
+    pub ids: &'a [u32],
+    pub x: &'a [DVec3],
+    pub v: &'a [DVec3],
 }
 
-impl Contact {
-    pub fn is_round(&self) -> bool {
-        self.surface == Surface::Round
+impl Bodies<'_> {
+    fn place(&self, body: u32) -> usize {
+        self.ids.binary_search(&body).unwrap_or(0)
     }
 
-    /// The contact that a body at `position` makes with a static body.
-    pub fn new(index: u32, fixture: &Fixture, position: DVec3) -> Self {
-        let surface = match &fixture.shape {
-            FixtureShape::Sphere { .. } => Surface::Round,
-            FixtureShape::Plate(plate) => {
-                let near = closest_on_plate(plate, position);
-                if near.feature == Feature::Face { Surface::Flat(near.towards) } else { Surface::Round }
+    /// A contact among these bodies as a bound on their accelerations. The limit is the centripetal
+    /// acceleration |v⊥|²/ρ that keeps them on a curved surface of radius ρ: less than that and they part.
+    pub fn link(&self, model: &Model, pair: Pair, surface: Surface) -> Link {
+        let a = self.place(pair.a);
+        let (b, (towards, limit)) = match pair.partner {
+            Partner::Dynamic(other) => {
+                let b = self.place(other);
+                (Some(b), on_sphere(self.x[b] - self.x[a], self.v[a] - self.v[b]))
             }
+            Partner::Static(fixture) => (None, self.on_static(model, a, fixture, surface)),
         };
-        Self { fixture: index, surface, settles_at: None }
+        Link { a, b, towards, limit }
     }
 
-    pub fn touch(&self, model: &Model, radius: f64, position: DVec3, velocity: DVec3) -> Touch {
-        if let Surface::Flat(towards) = self.surface {
-            return Touch { towards, centripetal: 0.0 };
+    fn on_static(&self, model: &Model, a: usize, fixture: u32, surface: Surface) -> (DVec3, f64) {
+        if let Surface::Flat(towards) = surface {
+            return (towards, 0.0);
         }
-        match &model.fixtures[self.fixture as usize].shape {
-            FixtureShape::Sphere { radius: fixed } => {
-                let away = model.fixtures[self.fixture as usize].position - position;
-                let towards = away.try_normalize().unwrap_or(DVec3::X);
-                let across = velocity - velocity.dot(towards) * towards;
-                Touch { towards, centripetal: across.length_squared() / (radius + fixed) }
-            }
+        let fixture = &model.fixtures[fixture as usize];
+        match &fixture.shape {
+            FixtureShape::Sphere { .. } => on_sphere(fixture.position - self.x[a], self.v[a]),
             FixtureShape::Plate(plate) => {
-                let near = closest_on_plate(plate, position);
-                Touch { towards: near.towards, centripetal: near.turn_away(velocity) }
+                let near = closest_on_plate(plate, self.x[a]);
+                (near.towards, near.turn_away(self.v[a]))
             }
         }
     }
 }
 
-/// The contacts of a body as they are at a position and velocity.
-pub(super) fn touches_at(
-    model: &Model,
-    contacts: &[Contact],
-    radius: f64,
-    position: DVec3,
-    velocity: DVec3,
-) -> Vec<Touch> {
-    contacts.iter().map(|contact| contact.touch(model, radius, position, velocity)).collect()
-}
-
-/// The acceleration that the contacts leave of a free acceleration.
-pub(super) fn constrain(
-    model: &Model,
-    contacts: &[Contact],
-    radius: f64,
-    position: DVec3,
-    velocity: DVec3,
-    free: DVec3,
-) -> DVec3 {
-    match contacts {
-        [] => free,
-        [only] => {
-            let touch = only.touch(model, radius, position, velocity);
-            // a·towards = |v⊥|²/ρ; less pressure than that and the body leaves, which is an event.
-            free - (free.dot(touch.towards) - touch.centripetal) * touch.towards
-        }
-        several => nearest_allowed(free, &touches_at(model, several, radius, position, velocity)),
-    }
-}
-
-/// The acceleration nearest to `free` that enters none of the surfaces: a·towards ≤ centripetal for each
-/// (Gauss's principle of least constraint).
-///
-/// The nearest point of a polyhedron is a projection onto at most three of its faces; few contacts allow
-/// to try them all.
-fn nearest_allowed(free: DVec3, touches: &[Touch]) -> DVec3 {
-    let largest = touches.iter().map(|touch| touch.centripetal).fold(free.length(), f64::max);
-    let tolerance = 1e-13 * largest;
-    let allowed =
-        |w: DVec3| touches.iter().all(|touch| w.dot(touch.towards) <= touch.centripetal + tolerance);
-    if allowed(free) {
-        return free;
-    }
-    let mut best: Option<DVec3> = None;
-    let mut offer = |faces: &[Touch]| {
-        let w = onto_faces(free, faces);
-        if allowed(w) && best.is_none_or(|b| (w - free).length_squared() < (b - free).length_squared()) {
-            best = Some(w);
-        }
-    };
-    for (i, a) in touches.iter().enumerate() {
-        offer(&[*a]);
-        for (j, b) in touches.iter().enumerate().skip(i + 1) {
-            offer(&[*a, *b]);
-            for c in &touches[j + 1..] {
-                offer(&[*a, *b, *c]);
-            }
-        }
-    }
-    best.unwrap_or_else(|| onto_faces(free, touches))
-}
-
-/// The vector nearest to `vector` with w·towards = centripetal on every face, by Gram–Schmidt. A face
-/// that depends on those before it is passed over.
-fn onto_faces(vector: DVec3, faces: &[Touch]) -> DVec3 {
-    const DEPENDENT: f64 = 1e-6;
-    let mut basis: Vec<(DVec3, f64)> = Vec::with_capacity(3);
-    let mut w = vector;
-    for face in faces {
-        let (mut fresh, mut offset) = (face.towards, face.centripetal);
-        for (unit, at) in &basis {
-            let along = face.towards.dot(*unit);
-            fresh -= along * *unit;
-            offset -= along * at;
-        }
-        let length = fresh.length();
-        if length > DEPENDENT {
-            let (unit, at) = (fresh / length, offset / length);
-            w -= (w.dot(unit) - at) * unit;
-            basis.push((unit, at));
-        }
-    }
-    // What is left in a groove or a corner may be rounding alone, and would creep.
-    if w.length() <= 16.0 * f64::EPSILON * vector.length() { DVec3::ZERO } else { w }
-}
-
-/// What is left of a velocity that may neither enter nor leave any of the surfaces.
-pub(super) fn along_all(velocity: DVec3, towards: &[DVec3]) -> DVec3 {
-    let faces: Vec<Touch> =
-        towards.iter().map(|towards| Touch { towards: *towards, centripetal: 0.0 }).collect();
-    onto_faces(velocity, &faces)
-}
-
-/// The velocity nearest to `velocity` that enters none of the surfaces.
-pub(super) fn into_cone(velocity: DVec3, towards: &[DVec3]) -> DVec3 {
-    let faces: Vec<Touch> =
-        towards.iter().map(|towards| Touch { towards: *towards, centripetal: 0.0 }).collect();
-    nearest_allowed(velocity, &faces)
-}
-
-/// Acceleration that presses the body into the contact, m/s²; not above zero when nothing holds it there.
-pub(super) fn pressure(touch: &Touch, free: DVec3) -> f64 {
-    free.dot(touch.towards) - touch.centripetal
-}
-
-/// The rounding of [`pressure`]: a contact is made above it and left below its negative, so that a body
-/// on the point of lifting off does not do both for ever.
-pub(super) fn pressure_rounding(touch: &Touch, free: DVec3) -> f64 {
-    1e-12 * (free.length() + touch.centripetal)
-}
-
-/// Whether a body under a free acceleration stays in contact `index` of its contacts.
-pub(super) fn is_held(touches: &[Touch], index: usize, free: DVec3) -> bool {
-    let touch = &touches[index];
-    let driven = if touches.len() == 1 { free } else { nearest_allowed(free, touches) };
-    free != DVec3::ZERO && pressure(touch, driven) >= -pressure_rounding(touch, free)
+/// Direction to the other centre, and |v⊥|²/distance.
+fn on_sphere(apart: DVec3, velocity: DVec3) -> (DVec3, f64) {
+    let distance = apart.length();
+    // As for gaps: coincident centres have no direction.
+    let towards = if distance > 0.0 { apart / distance } else { DVec3::X };
+    let across = velocity - velocity.dot(towards) * towards;
+    (towards, across.length_squared() / distance.max(f64::MIN_POSITIVE))
 }

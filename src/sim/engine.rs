@@ -3,12 +3,14 @@
 use glam::DVec3;
 
 use super::account::present;
-use super::impact;
-use super::lasting::{keep_contacts, prune_contacts};
+use super::contact::{Pair, Partner};
+use super::group::gap_of;
+use super::impact::{self, contact_event};
+use super::island::{From, part, restart};
 use super::model::Model;
-use super::motion::{SegmentError, begin_segment, turn_back};
-use super::neighbours::{predict_all, predict_core_passes, predict_fixture, predict_pair, reregister};
-use super::predict::{self, sphere_fixture_gap, sphere_sphere_gap};
+use super::motion::{SegmentError, turn_back};
+use super::neighbours::{predict_core_passes, predict_fixture, predict_pair, reregister};
+use super::predict::{self, Gap};
 use super::queue::{Kind, Predicted};
 use super::state::State;
 use super::{BodyRef, Event, EventKind, Fault};
@@ -16,25 +18,24 @@ use super::{BodyRef, Event, EventKind, Fault};
 /// Carries out the next predicted event that is not after `state.until`; false when there is none.
 /// What it has to report is left in the outbox.
 pub(super) fn advance(model: &Model, state: &mut State) -> Result<bool, Fault> {
-    let Some(next) = pop(state) else { return Ok(false) };
+    let Some(next) = pop(state, state.until) else { return Ok(false) };
     state.reached = next.time;
     match next.kind {
         Kind::SegmentEnd => go_on(model, state, next.a, next.time)?,
         Kind::LeaveTiles => reregister(model, state, next.a, next.time),
         Kind::CorePass => pass_core(model, state, &next)?,
-        Kind::Settled => settled(model, state, &next),
-        Kind::ContactEnd => leave_contact(model, state, &next)?,
-        Kind::Impact => meet(model, state, &next)?,
-        Kind::FixtureImpact => meet_fixture(model, state, &next)?,
+        Kind::Settled | Kind::PairSettled => settled(model, state, &next),
+        Kind::ContactEnd | Kind::PairEnd => leave_contact(model, state, &next)?,
+        Kind::Impact | Kind::FixtureImpact => meet(model, state, &next)?,
     }
     tidy(state);
     Ok(true)
 }
 
-fn pop(state: &mut State) -> Option<Predicted> {
+fn pop(state: &mut State, until: f64) -> Option<Predicted> {
     let mut queue = std::mem::take(&mut state.queue);
     let mut dropped = 0;
-    let next = queue.pop(state.until, &mut dropped, |predicted| state.holds(predicted));
+    let next = queue.pop(until, &mut dropped, |predicted| state.holds(predicted));
     state.queue = queue;
     state.counters.stale_events += dropped;
     next
@@ -46,86 +47,98 @@ fn tidy(state: &mut State) {
     state.queue = queue;
 }
 
-/// Lets a body go on from (x, v): contacts that no longer hold are dropped, a segment begins, and
-/// everything about it is predicted.
-pub(super) fn restart(
-    model: &Model,
-    state: &mut State,
-    body: u32,
-    time: f64,
-    x: DVec3,
-    v: DVec3,
-) -> Result<(), Fault> {
-    begin(model, state, body, time, x, v)?;
-    predict_all(model, state, body, time);
-    Ok(())
-}
-
-/// The first half of [`restart`], for several bodies that start together.
-pub(super) fn begin(
-    model: &Model,
-    state: &mut State,
-    body: u32,
-    time: f64,
-    x: DVec3,
-    v: DVec3,
-) -> Result<(), Fault> {
-    prune_contacts(model, state, body, time, x, v);
-    begin_segment(model, state, body, time, x, v).map_err(|error| fault(model, body, time, error))
-}
-
 /// Begins segments for all bodies at `state.now` and predicts everything: any of them may be concerned.
 pub(super) fn begin_all(model: &Model, state: &mut State) -> Result<(), Fault> {
-    let time = state.now;
-    for body in present(model) {
-        let segment = state.segments[body as usize];
-        begin(model, state, body, time, segment.x, segment.v)?;
-    }
-    for body in present(model) {
-        predict_all(model, state, body, time);
-    }
-    Ok(())
+    let starts: Vec<From> = present(model)
+        .map(|body| (body, state.segments[body as usize]))
+        .map(|(body, segment)| From { body, x: segment.x, v: segment.v })
+        .collect();
+    restart(model, state, state.now, &starts)
 }
 
 /// The end of a segment: the next one goes on from there.
 fn go_on(model: &Model, state: &mut State, body: u32, time: f64) -> Result<(), Fault> {
-    let (x, v) = (state.position(body, time), state.velocity(body, time));
-    restart(model, state, body, time, x, v)
+    restart(model, state, time, &[from_now(state, body, time)])
 }
 
-/// Two dynamic bodies are due to touch.
+/// Where a body is on its segment.
+fn from_now(state: &State, body: u32, time: f64) -> From {
+    From { body, x: state.position(body, time), v: state.velocity(body, time) }
+}
+
+/// Who a prediction of two bodies is about.
+fn pair_of(next: &Predicted) -> Pair {
+    let partner = if next.kind.is_of_pair() { Partner::Dynamic(next.b) } else { Partner::Static(next.b) };
+    Pair::new(next.a, partner)
+}
+
+/// Two bodies are due to touch.
 fn meet(model: &Model, state: &mut State, next: &Predicted) -> Result<(), Fault> {
-    let (a, b, time) = (next.a, next.b, next.time);
-    let gap = sphere_sphere_gap(state.mover(model, a), state.mover(model, b), time);
-    let reach = model.movers[a as usize].radius.max(model.movers[b as usize].radius);
-    if gap.rate < 0.0 && is_closed(&gap, reach, time) {
-        return impact::of_pair(model, state, a, b, time, &gap);
+    let (pair, time) = (pair_of(next), next.time);
+    let gap = gap_of(model, state, pair, time);
+    if !(gap.is_closing() && is_closed(&gap, reach(model, pair), time)) {
+        let from = if gap.is_closing() { time } else { a_little_after(time) };
+        look_again(model, state, pair, from, time);
+        return Ok(());
     }
-    predict_pair(model, state, a, b, later(time, &gap), time);
-    Ok(())
+    let [also, rest] = simultaneous(model, state, pair, time, &gap);
+    let mut left: Vec<Pair> = also.iter().map(pair_of).collect();
+    let outcome = impact::resolve(model, state, time, pair, &gap, &mut left);
+    // What was not part of it is due as before.
+    let unmet = also.into_iter().filter(|predicted| left.contains(&pair_of(predicted)));
+    rest.into_iter().chain(unmet).for_each(|predicted| state.queue.push(predicted));
+    outcome
 }
 
-/// Where to go on looking after a prediction that was no contact: at a surface that is not being closed
-/// in on a little later, for the same time would only give the same answer.
-fn later(time: f64, gap: &predict::Gap) -> f64 {
+/// Other impacts that are due at the same instant, for all that can be measured: their surfaces touch to
+/// within the contact distance and close. And the other predictions of that instant. (A pair may have been
+/// predicted twice.)
+fn simultaneous(model: &Model, state: &mut State, pair: Pair, time: f64, gap: &Gap) -> [Vec<Predicted>; 2] {
+    let params = &model.params;
+    let longest = SAME_INSTANT * params.contact_duration;
+    let window = (params.contact_distance / gap.rate.abs()).min(longest);
+    let (mut also, mut rest) = (Vec::new(), Vec::new());
+    while let Some(next) = pop(state, time + window) {
+        let is_impact = matches!(next.kind, Kind::Impact | Kind::FixtureImpact);
+        if is_impact && pair_of(&next) == pair {
+            continue;
+        }
+        let meets = || {
+            let gap = gap_of(model, state, pair_of(&next), time);
+            gap.rate < 0.0 && gap.distance <= params.contact_distance
+        };
+        if is_impact && meets() { also.push(next) } else { rest.push(next) }
+    }
+    [also, rest]
+}
+
+/// Impacts farther apart than this part of the contact duration are not of one instant, however slow.
+const SAME_INSTANT: f64 = 1e-3;
+
+/// The larger radius of a pair, m.
+fn reach(model: &Model, pair: Pair) -> f64 {
+    let radius = |body: u32| model.movers[body as usize].radius;
+    pair.other().map_or(radius(pair.a), |other| radius(pair.a).max(radius(other)))
+}
+
+/// Predicts again what was no contact.
+pub(super) fn look_again(model: &Model, state: &mut State, pair: Pair, from: f64, time: f64) {
+    match pair.partner {
+        Partner::Dynamic(other) => predict_pair(model, state, pair.a, other, from, time),
+        Partner::Static(fixture) => predict_fixture(model, state, pair.a, fixture, from, time),
+    }
+}
+
+/// Where to go on looking after a prediction that led to nothing: the same time would only give the same
+/// answer.
+pub(super) fn a_little_after(time: f64) -> f64 {
     const LATER: f64 = 1e-9;
-    if gap.is_closing() { time } else { time + LATER.max(4.0 * f64::EPSILON * time) }
-}
-
-/// A dynamic body is due to touch a static one.
-fn meet_fixture(model: &Model, state: &mut State, next: &Predicted) -> Result<(), Fault> {
-    let (body, index, time) = (next.a, next.b, next.time);
-    let gap = sphere_fixture_gap(state.mover(model, body), &model.fixtures[index as usize], time);
-    if gap.is_closing() && is_closed(&gap, model.movers[body as usize].radius, time) {
-        return impact::on_fixture(model, state, body, index, time, &gap);
-    }
-    predict_fixture(model, state, body, index, later(time, &gap), time);
-    Ok(())
+    time + LATER.max(4.0 * f64::EPSILON * time)
 }
 
 /// Whether surfaces are as near as a found root leaves them: a search that gave up is farther off. A root
 /// is known to the rounding of the time, in which they come nearer by |ḋ| times that.
-fn is_closed(gap: &predict::Gap, radius: f64, time: f64) -> bool {
+fn is_closed(gap: &Gap, radius: f64, time: f64) -> bool {
     let rounding_of_time = 16.0 * f64::EPSILON * time * gap.rate.abs();
     gap.distance <= 1e3 * predict::touch_tolerance(gap.point, radius) + rounding_of_time
 }
@@ -149,48 +162,39 @@ fn pass_core(model: &Model, state: &mut State, next: &Predicted) -> Result<(), F
     let turned = if turn_back(model, state, body, time) { -v } else { v - 2.0 * speed * inward };
     let mass = model.movers[body as usize].mass;
     state.account.impulses.add(mass * (turned - v));
-    record(
-        state,
-        Event {
-            seq: 0,
-            time,
-            kind: EventKind::SingularPass,
-            a: BodyRef::Dynamic(body),
-            b: None,
-            point: x,
-            normal: DVec3::ZERO,
-            impulse: 0.0,
-            vn_before: 0.0,
-            vn_after: 0.0,
-            group: 0,
-        },
-    );
-    restart(model, state, body, time, x, turned)
+    record(state, Event::of_one(time, EventKind::SingularPass, BodyRef::Dynamic(body), x));
+    restart(model, state, time, &[From { body, x, v: turned }])
 }
 
-/// The limit time of a body's bounces has come.
+/// The limit time of the bounces of two bodies has come.
 fn settled(model: &Model, state: &mut State, next: &Predicted) {
-    let contacts = &mut state.contacts[next.a as usize];
-    let Some(contact) = contacts.iter_mut().find(|contact| contact.fixture == next.b) else { return };
-    if contact.settles_at.take().is_some() {
-        record_contact(model, state, next.time, EventKind::Rest, next.a, next.b);
-        if state.velocity(next.a, next.time) != DVec3::ZERO {
-            record_contact(model, state, next.time, EventKind::Slide, next.a, next.b);
+    let (pair, time) = (pair_of(next), next.time);
+    let ends = [Some((pair.a, pair.partner)), pair.other().map(|other| (other, Partner::Dynamic(pair.a)))];
+    let mut was_due = false;
+    for (body, partner) in ends.into_iter().flatten() {
+        let contacts = &mut state.contacts[body as usize];
+        let contact = contacts.iter_mut().find(|contact| contact.partner == partner);
+        was_due |= contact.is_some_and(|contact| contact.settles_at.take().is_some());
+    }
+    if was_due {
+        record_contact(model, state, time, EventKind::Rest, pair);
+        let speed = pair.other().map_or(DVec3::ZERO, |other| state.velocity(other, time));
+        if state.velocity(pair.a, time) != speed {
+            record_contact(model, state, time, EventKind::Slide, pair);
         }
     }
 }
 
-/// A surface ends under a body, or nothing presses it on any more.
+/// A surface ends under a body, or nothing presses two bodies together any more.
 fn leave_contact(model: &Model, state: &mut State, next: &Predicted) -> Result<(), Fault> {
-    let (body, time) = (next.a, next.time);
-    state.contacts[body as usize].retain(|contact| contact.fixture != next.b);
-    record_contact(model, state, time, EventKind::LiftOff, body, next.b);
-    let (x, v) = (state.position(body, time), state.velocity(body, time));
-    let v = keep_contacts(model, state, body, time, x, v);
-    restart(model, state, body, time, x, v)
+    let (pair, time) = (pair_of(next), next.time);
+    part(model, state, pair, time);
+    let bodies = [Some(pair.a), pair.other()].into_iter().flatten();
+    let starts: Vec<From> = bodies.map(|body| from_now(state, body, time)).collect();
+    restart(model, state, time, &starts)
 }
 
-fn fault(model: &Model, body: u32, time: f64, error: SegmentError) -> Fault {
+pub(super) fn fault(model: &Model, body: u32, time: f64, error: SegmentError) -> Fault {
     let name = &model.movers[body as usize].identity.name;
     let message = match error {
         SegmentError::NotFinite => {
@@ -221,49 +225,28 @@ pub(super) fn record(state: &mut State, mut event: Event) {
     state.outbox.push_back(event);
 }
 
-/// An event of a dynamic body at a static one that exchanges no impulse. A collapse is listed once, not
-/// with each of the contacts it makes and breaks.
-pub(super) fn record_contact(
-    model: &Model,
-    state: &mut State,
-    time: f64,
-    kind: EventKind,
-    body: u32,
-    fixture: u32,
-) {
-    if state.is_in_collapse(model, body, time) {
-        return;
-    }
-    let gap = sphere_fixture_gap(state.mover(model, body), &model.fixtures[fixture as usize], time);
-    let event = Event {
-        seq: 0,
-        time,
-        kind,
-        a: BodyRef::Dynamic(body),
-        b: Some(BodyRef::Static(fixture)),
-        point: gap.point,
-        normal: gap.normal,
-        impulse: 0.0,
-        vn_before: 0.0,
-        vn_after: 0.0,
-        group: 0,
-    };
+/// An event of two bodies that exchanges no impulse.
+pub(super) fn record_contact(model: &Model, state: &mut State, time: f64, kind: EventKind, pair: Pair) {
+    let gap = gap_of(model, state, pair, time);
+    let event = contact_event(time, kind, pair, &gap);
     record(state, in_id_order(model, event));
 }
 
 /// The same event with the body of the smaller UserID first and the normal from it to the other.
 pub(super) fn in_id_order(model: &Model, mut event: Event) -> Event {
-    let rank = |body: BodyRef| {
-        let identity = match body {
-            BodyRef::Dynamic(index) => &model.movers[index as usize].identity,
-            BodyRef::Static(index) => &model.fixtures[index as usize].identity,
-        };
-        (identity.id, identity.order, body)
-    };
     if let Some(b) = event.b
-        && rank(b) < rank(event.a)
+        && rank(model, b) < rank(model, event.a)
     {
         (event.a, event.b, event.normal) = (b, Some(event.a), -event.normal);
     }
     event
+}
+
+/// UserID order.
+pub(super) fn rank(model: &Model, body: BodyRef) -> (i64, u32, BodyRef) {
+    let identity = match body {
+        BodyRef::Dynamic(index) => &model.movers[index as usize].identity,
+        BodyRef::Static(index) => &model.fixtures[index as usize].identity,
+    };
+    (identity.id, identity.order, body)
 }

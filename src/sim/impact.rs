@@ -1,138 +1,204 @@
-//! Response to an impact: Newton's law of restitution, v' = v − (1+e)(v·n)n and its two-body form.
+//! Response to an impact: of two bodies alone by Newton's law of restitution, of more as a group; and whether
+//! it was the last of their bounces.
 
 use glam::DVec3;
 
-use super::engine::{begin, in_id_order, record, restart};
-use super::lasting::{Hit, keep_contacts, settle};
+use super::contact::{Contact, Pair, Partner};
+use super::engine::{a_little_after, in_id_order, look_again, rank, record};
+use super::group::{Group, Member, restitution_of};
+use super::island::{From, part, restart};
+use super::lasting::{Settling, settle};
 use super::model::Model;
-use super::neighbours::predict_all;
-use super::predict::{Gap, hold_time};
+use super::predict::{Gap, touch_tolerance};
+use super::restitution::{Blow, blow, reduced_mass};
 use super::state::State;
-use super::{BodyRef, Event, EventKind, Fault};
+use super::{Event, EventKind, Fault};
 
-/// Two dynamic spheres exchange momentum along the line of centres.
-pub(super) fn of_pair(
+/// Two bodies touch while closing. `also` are impacts of the same instant, of which those connected with it
+/// are resolved too and taken out.
+pub(super) fn resolve(
     model: &Model,
     state: &mut State,
-    a: u32,
-    b: u32,
     time: f64,
+    pair: Pair,
     gap: &Gap,
+    also: &mut Vec<Pair>,
 ) -> Result<(), Fault> {
-    let (info_a, info_b) = (&model.movers[a as usize], &model.movers[b as usize]);
-    let natural = info_a.bounce * info_b.bounce;
-    let cascades = [a, b].map(|body| note_pair_impact(model, state, body, time, natural));
-    let cascade = cascades[0].max(cascades[1]);
-    let closing = -gap.rate;
-    let parting = parting_speed(model, natural, cascade, closing, gap);
-    let reduced_mass = info_a.mass * info_b.mass / (info_a.mass + info_b.mass);
-    let impulse = reduced_mass * (closing + parting);
-    // ΔE = ½ μ (v_n² − v_n'²)
-    state.account.impact_losses.add(0.5 * reduced_mass * (closing - parting) * (closing + parting));
-    if let Some(kind) = listed_kind(cascade) {
-        let event = Event {
-            seq: 0,
-            time,
-            kind,
-            a: BodyRef::Dynamic(a),
-            b: Some(BodyRef::Dynamic(b)),
-            point: gap.point,
-            normal: gap.normal,
-            impulse,
-            vn_before: gap.rate,
-            vn_after: parting,
-            group: next_group(state),
-        };
-        record(state, in_id_order(model, event));
+    let is_lone = also.is_empty()
+        && [Some(pair.a), pair.other()]
+            .into_iter()
+            .flatten()
+            .all(|body| state.contacts[body as usize].is_empty() && state.touching[body as usize].is_empty());
+    if is_lone && !is_near_rest(model, state, pair, gap) && !is_in_cascade(model, state, pair, time) {
+        note_lossy(model, state, time, &[pair]);
+        return bounce(model, state, time, pair, gap);
     }
-
-    let starts = [(a, -impulse / info_a.mass), (b, impulse / info_b.mass)].map(|(body, change)| {
-        let x = state.position(body, time);
-        let v = state.velocity(body, time) + change * gap.normal;
-        (body, x, keep_contacts(model, state, body, time, x, v))
-    });
-    // Both segments must stand before anything is predicted between them.
-    for (body, x, v) in starts {
-        begin(model, state, body, time, x, v)?;
+    let mut group = Group::gather(model, state, time, pair, also);
+    let closing: Vec<Pair> = group.closing_now().map(|member| member.pair).collect();
+    let cascading = note_lossy(model, state, time, &closing);
+    if cascading != Cascading::No {
+        group.members.iter_mut().for_each(|member| member.restitution = 0.0);
     }
-    predict_all(model, state, a, time);
-    predict_all(model, state, b, time);
-    Ok(())
+    group.resolve();
+    let kind = if cascading == Cascading::Begins { EventKind::Collapse } else { EventKind::Impact };
+    list(model, state, time, &group, kind);
+    finish(model, state, time, group, pair)
 }
 
-/// A dynamic sphere is thrown back by a static body, or comes to rest on it.
-pub(super) fn on_fixture(
-    model: &Model,
-    state: &mut State,
-    body: u32,
-    fixture: u32,
-    time: f64,
-    gap: &Gap,
-) -> Result<(), Fault> {
-    let info = &model.movers[body as usize];
-    let natural = info.bounce * model.fixtures[fixture as usize].bounce;
-    let cascade = if state.is_in_collapse(model, body, time) { Cascading::Goes } else { Cascading::No };
-    let restitution = if cascade == Cascading::No { natural } else { natural.max(1.0) };
-    let closing = -gap.rate;
-    let before = state.velocity(body, time);
-    let mut velocity = before - (1.0 + restitution) * closing * gap.normal;
-    let position = state.position(body, time);
-    let hit = Hit { time, position, velocity, closing, restitution };
-    let settling = settle(model, state, body, fixture, &hit);
+/// Mass that an impulse between two bodies moves, kg.
+fn moved_mass(model: &Model, pair: Pair) -> f64 {
+    let mass = model.movers[pair.a as usize].mass;
+    pair.other().map_or(mass, |other| reduced_mass(mass, model.movers[other as usize].mass))
+}
 
-    if closing > 0.0
-        && let Some(kind) = listed_kind(cascade)
-    {
-        let event = Event {
-            seq: 0,
-            time,
-            kind,
-            a: BodyRef::Dynamic(body),
-            b: Some(BodyRef::Static(fixture)),
-            point: gap.point,
-            normal: gap.normal,
-            impulse: (1.0 + restitution) * info.mass * closing,
-            vn_before: gap.rate,
-            vn_after: restitution * closing,
-            group: next_group(state),
-        };
-        record(state, in_id_order(model, event));
+/// Whether the last bounces may have come: the full rule must decide.
+fn is_near_rest(model: &Model, state: &State, pair: Pair, gap: &Gap) -> bool {
+    let speed = restitution_of(model, pair) * -gap.rate;
+    let rounding = touch_tolerance(state.segments[pair.a as usize].x, model.movers[pair.a as usize].radius);
+    speed <= model.params.rest_speed || speed * speed <= 4.0 * gap.drive.abs() * rounding
+}
+
+/// Newton's law for two bodies that touch nothing else: v_n' = −e v_n.
+fn bounce(model: &Model, state: &mut State, time: f64, pair: Pair, gap: &Gap) -> Result<(), Fault> {
+    let Blow { impulse, parting, loss } =
+        blow(moved_mass(model, pair), restitution_of(model, pair), -gap.rate);
+    state.account.impact_losses.add(loss);
+    if pair.other().is_none() {
+        state.account.impulses.add(-impulse * gap.normal);
     }
-    match settling {
-        Some(settling) => {
-            state.contacts[body as usize].push(settling.contact);
-            velocity = settling.velocity;
+    state.group += 1;
+    let event = Event {
+        impulse,
+        vn_before: gap.rate,
+        vn_after: parting,
+        group: state.group,
+        ..contact_event(time, EventKind::Impact, pair, gap)
+    };
+    record(state, in_id_order(model, event));
+    let start = |state: &State, body: u32, change: f64| From {
+        body,
+        x: state.position(body, time),
+        v: state.velocity(body, time) + change * gap.normal,
+    };
+    let of_a = -impulse / model.movers[pair.a as usize].mass;
+    let first = start(state, pair.a, of_a);
+    match pair.other() {
+        None => restart(model, state, time, &[first]),
+        Some(other) => {
+            let second = start(state, other, impulse / model.movers[other as usize].mass);
+            restart(model, state, time, &[first, second])
         }
-        None => velocity = keep_contacts(model, state, body, time, position, velocity),
     }
-    book_change(model, state, body, before, velocity);
-    restart(model, state, body, time, position, velocity)
 }
 
-/// Books what a change of velocity at a static body took and gave.
-fn book_change(model: &Model, state: &mut State, body: u32, before: DVec3, after: DVec3) {
-    let mass = model.movers[body as usize].mass;
-    // ½m(v² − v'²) as a product, which does not cancel.
-    state.account.impact_losses.add(0.5 * mass * (before - after).dot(before + after));
-    state.account.impulses.add(mass * (after - before));
+/// An event of two bodies that exchanges no impulse, not yet numbered or in the order of their ids.
+pub(super) fn contact_event(time: f64, kind: EventKind, pair: Pair, gap: &Gap) -> Event {
+    let (a, b) = pair.refs();
+    Event { b: Some(b), normal: gap.normal, ..Event::of_one(time, kind, a, gap.point) }
 }
 
-/// Where an impact stands in a run of impacts of one body, each closely after the one before.
+/// Lists what a group exchanged, one row for each contact.
+fn list(model: &Model, state: &mut State, time: f64, group: &Group, kind: EventKind) {
+    if group.members.iter().all(|member| member.impulse <= 0.0) {
+        return;
+    }
+    state.group += 1;
+    let row = |member: &Member| {
+        let event = Event {
+            impulse: member.impulse,
+            vn_before: -member.before,
+            vn_after: -group.closing(member),
+            group: state.group,
+            ..contact_event(time, kind, member.pair, &member.gap)
+        };
+        in_id_order(model, event)
+    };
+    let mut rows: Vec<Event> = group.members.iter().filter(|member| member.impulse > 0.0).map(row).collect();
+    rows.sort_by_key(|row| (rank(model, row.a), row.b.map(|b| rank(model, b))));
+    for row in rows {
+        record(state, row);
+    }
+}
+
+/// Books what a group lost and was given, settles what has come to rest, and lets its bodies go on.
+fn finish(model: &Model, state: &mut State, time: f64, mut group: Group, first: Pair) -> Result<(), Fault> {
+    let before: Vec<DVec3> = group.bodies.ids.iter().map(|body| state.velocity(*body, time)).collect();
+    let settling = settle(model, &mut group);
+    let mut changed: Vec<bool> = before.iter().zip(&group.bodies.v).map(|(old, new)| old != new).collect();
+    for (k, member) in group.members.iter().enumerate() {
+        if member.pair.other().is_none() {
+            state.account.impulses.add(-member.impulse * member.link.towards);
+        }
+        let made = settling.iter().find(|settling| settling.member == k);
+        let is_new = made.is_some_and(|made| made.settles_at.is_some());
+        if is_new || (member.is_lasting && made.is_none()) {
+            [Some(member.link.a), member.link.b].into_iter().flatten().for_each(|body| changed[body] = true);
+        }
+        match made {
+            Some(made) => make(state, member, made),
+            None if member.is_lasting => part(model, state, member.pair, time),
+            None => {}
+        }
+    }
+    state.account.impact_losses.add(group.loss);
+    if !changed.iter().any(|changed| *changed) {
+        // It neither needs an impulse nor lasts.
+        look_again(model, state, first, a_little_after(time), time);
+        return Ok(());
+    }
+    let bodies = group.bodies;
+    let starts: Vec<From> = (0..bodies.ids.len())
+        .filter(|k| changed[*k])
+        .map(|k| From { body: bodies.ids[k], x: bodies.x[k], v: bodies.v[k] })
+        .collect();
+    restart(model, state, time, &starts)
+}
+
+/// Enters a lasting contact with both bodies, or what is new about an old one.
+fn make(state: &mut State, member: &Member, settling: &Settling) {
+    let Some(settles_at) = settling.settles_at else { return };
+    let pair = member.pair;
+    let ends = [Some((pair.a, pair.partner)), pair.other().map(|other| (other, Partner::Dynamic(pair.a)))];
+    for (body, partner) in ends.into_iter().flatten() {
+        let contacts = &mut state.contacts[body as usize];
+        contacts.retain(|contact| contact.partner != partner);
+        contacts.push(Contact { partner, surface: member.surface, settles_at: Some(settles_at) });
+    }
+}
+
+/// Where an impact stands in a run of impacts of its bodies, each closely after the one before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Cascading {
     /// The run is short.
     No,
-    /// The run reaches its limit with this impact: the rest of it must not lose energy.
+    /// The run reaches its limit with this impact: from now on nothing bounces.
     Begins,
     Goes,
 }
 
-/// Counts an impact of two moving bodies that loses energy. Others make no collapse: elastic ones go on
-/// anyway, and a lone body comes to rest on what is fixed.
-fn note_pair_impact(model: &Model, state: &mut State, body: u32, time: f64, restitution: f64) -> Cascading {
-    if restitution >= 1.0 {
-        return if state.is_in_collapse(model, body, time) { Cascading::Goes } else { Cascading::No };
+/// Whether the next lossy impact of a pair may be one too many.
+fn is_in_cascade(model: &Model, state: &State, pair: Pair, time: f64) -> bool {
+    let last = model.params.collapse_count - 1.0;
+    [Some(pair.a), pair.other()].into_iter().flatten().any(|body| {
+        let cascade = &state.cascades[body as usize];
+        f64::from(cascade.length) >= last && time - cascade.last_impact < model.params.contact_duration
+    })
+}
+
+/// Counts an impact of moving bodies that loses energy. Others make no collapse: elastic ones go on anyway,
+/// and a lone body comes to rest on what is fixed.
+fn note_lossy(model: &Model, state: &mut State, time: f64, pairs: &[Pair]) -> Cascading {
+    let mut cascading = Cascading::No;
+    for pair in pairs.iter().filter(|pair| restitution_of(model, **pair) < 1.0) {
+        let Some(other) = pair.other() else { continue };
+        for body in [pair.a, other] {
+            cascading = cascading.max(count(model, state, body, time));
+        }
     }
+    cascading
+}
+
+fn count(model: &Model, state: &mut State, body: u32, time: f64) -> Cascading {
     let cascade = &mut state.cascades[body as usize];
     let follows = time - cascade.last_impact < model.params.contact_duration;
     cascade.length = if follows { cascade.length.saturating_add(1) } else { 0 };
@@ -142,31 +208,4 @@ fn note_pair_impact(model: &Model, state: &mut State, body: u32, time: f64, rest
         std::cmp::Ordering::Equal => Cascading::Begins,
         std::cmp::Ordering::Greater => Cascading::Goes,
     }
-}
-
-/// The ledger lists a collapse once, not the impacts without end that follow in it.
-fn listed_kind(cascade: Cascading) -> Option<EventKind> {
-    match cascade {
-        Cascading::No => Some(EventKind::Impact),
-        Cascading::Begins => Some(EventKind::Collapse),
-        Cascading::Goes => None,
-    }
-}
-
-/// Speed at which two moving bodies part. In a cascade no energy is lost. Bodies that are driven together
-/// so hard that they would meet again at once part a little faster than e·v_n, for the hold time, but
-/// never faster than they met: the energy never grows, and they do not sink into each other.
-fn parting_speed(model: &Model, restitution: f64, cascade: Cascading, closing: f64, gap: &Gap) -> f64 {
-    let natural = restitution * closing;
-    if cascade != Cascading::No {
-        return natural.max(closing);
-    }
-    let pressing = (-gap.bend).max(0.0);
-    let shortest = pressing * hold_time(&model.params, pressing);
-    if natural < shortest { closing.min(shortest).max(natural) } else { natural }
-}
-
-fn next_group(state: &mut State) -> u64 {
-    state.group += 1;
-    state.group
 }

@@ -2,220 +2,190 @@
 
 use glam::DVec3;
 
-use super::account::subject;
-use super::contact::{
-    Contact, Surface, along_all, constrain, into_cone, is_held, pressure, pressure_rounding, touches_at,
-};
-use super::engine::record_contact;
+use super::ContactState;
+use super::constraint::{Link, enter_none, stay_on};
+use super::contact::{Contact, Pair, Partner, Surface};
+use super::group::{Group, Member};
+use super::island::{connected, first_parting};
 use super::model::{FixtureShape, Model};
-use super::motion::applied_force;
 use super::neighbours::first_beyond;
-use super::predict::touch_tolerance;
+use super::predict::{PRESSURE_ROUNDING, touch_tolerance};
 use super::queue::Kind;
 use super::state::State;
-use super::{ContactState, EventKind};
 
 /// Predicts when the contacts of a body settle or end on its present segment.
 pub(super) fn predict_contact_events(model: &Model, state: &mut State, body: u32, time: f64) {
     for index in 0..state.contacts[body as usize].len() {
         let contact = state.contacts[body as usize][index];
+        let pair = Pair::new(body, contact.partner);
+        if pair.a != body {
+            continue;
+        }
         if let Some(settled) = contact.settles_at {
-            state.predict_one(settled.max(time), Kind::Settled, body, contact.fixture);
+            state.predict_of(settled.max(time), [Kind::PairSettled, Kind::Settled], pair);
         }
-        if let Some(end) = contact_end(model, state, body, &contact, time) {
-            state.predict_one(end, Kind::ContactEnd, body, contact.fixture);
-        }
-    }
-}
-
-/// First time at which the body slides off the face, or is no longer pressed on.
-fn contact_end(model: &Model, state: &State, body: u32, contact: &Contact, time: f64) -> Option<f64> {
-    let off = match (contact.surface, &model.fixtures[contact.fixture as usize].shape) {
-        (Surface::Flat(_), FixtureShape::Plate(plate)) => {
-            let path = state.path(body);
-            // A rounding beyond the edge, so that what comes next meets the edge and not the face again.
-            let beyond = touch_tolerance(path.segment.x, model.movers[body as usize].radius);
-            let sides = [
-                (plate.axis_x, plate.half_x),
-                (-plate.axis_x, plate.half_x),
-                (plate.axis_y, plate.half_y),
-                (-plate.axis_y, plate.half_y),
-            ];
-            sides
-                .into_iter()
-                .filter_map(|(axis, half)| {
-                    first_beyond(path, axis, axis.dot(plate.center) + half + beyond, 0.0, time)
-                })
-                .reduce(f64::min)
-        }
-        _ => None,
-    };
-    let lifted =
-        if state.path(body).series.is_some() { lift_time(model, state, body, contact) } else { None };
-    [off, lifted].into_iter().flatten().reduce(f64::min)
-}
-
-/// Parts of a field segment at whose ends the pressure is looked at. A step of the integrator is short
-/// against the time in which a smooth force turns round twice.
-const PRESSURE_SAMPLES: u32 = 8;
-
-/// First time on a field segment at which nothing presses the body into the contact any more.
-fn lift_time(model: &Model, state: &State, body: u32, contact: &Contact) -> Option<f64> {
-    let segment = &state.segments[body as usize];
-    let contacts = &state.contacts[body as usize];
-    let index = contacts.iter().position(|other| other.fixture == contact.fixture)?;
-    let pressed = |time: f64| {
-        let subject = subject(model, state, body, time);
-        let touches = touches_at(model, contacts, subject.radius, subject.position, subject.velocity);
-        is_held(&touches, index, applied_force(model, &subject) / subject.mass)
-    };
-    let mut low = segment.start;
-    for sample in 1..=PRESSURE_SAMPLES {
-        let high = segment.start + segment.step * f64::from(sample) / f64::from(PRESSURE_SAMPLES);
-        if !pressed(high) {
-            return Some(bisect(low, high, pressed));
-        }
-        low = high;
-    }
-    None
-}
-
-/// The earliest representable time in low..=high at which `holds` no longer holds.
-fn bisect(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
-    loop {
-        let middle = 0.5 * (low + high);
-        if middle <= low || middle >= high {
-            return high;
-        }
-        if holds(middle) { low = middle } else { high = middle }
-    }
-}
-
-/// How a body that has just hit a static one may go on in lasting contact.
-pub(super) struct Settling {
-    pub contact: Contact,
-    /// Velocity with nothing left that enters a surface, m/s.
-    pub velocity: DVec3,
-}
-
-/// A hit as the question of rest sees it.
-pub(super) struct Hit {
-    pub time: f64,
-    pub position: DVec3,
-    /// Velocity after the impact, m/s.
-    pub velocity: DVec3,
-    /// Normal speed before the impact, m/s, ≥ 0.
-    pub closing: f64,
-    pub restitution: f64,
-}
-
-/// Whether the bounces after a hit are over: they are if their sum has a near limit, or if they are lower
-/// than the rounding of the position. Then the body rests or slides, and the event comes at the limit
-/// time t + Σ flights = t + 2v'/(g(1−e)).
-pub(super) fn settle(model: &Model, state: &State, body: u32, fixture: u32, hit: &Hit) -> Option<Settling> {
-    let mover = &model.movers[body as usize];
-    let mut contact = Contact::new(fixture, &model.fixtures[fixture as usize], hit.position);
-    let mut at_hit = subject(model, state, body, hit.time);
-    at_hit.velocity = hit.velocity;
-    let touch = contact.touch(model, mover.radius, hit.position, hit.velocity);
-    // What drives it against this surface may be another one that it slides along.
-    let free = applied_force(model, &at_hit) / mover.mass;
-    let contacts = &state.contacts[body as usize];
-    let driven = constrain(model, contacts, mover.radius, hit.position, hit.velocity, free);
-    let pressing = pressure(&touch, driven);
-    if pressing <= pressure_rounding(&touch, driven) {
-        return None;
-    }
-    let speed = hit.restitution * hit.closing;
-    let flights = 2.0 * speed / (pressing * (1.0 - hit.restitution));
-    let has_limit =
-        hit.restitution < 1.0 && speed <= model.params.rest_speed && flights <= model.params.rest_time;
-    let below_rounding = speed * speed <= 2.0 * pressing * touch_tolerance(hit.position, mover.radius);
-    if !has_limit && !below_rounding {
-        return None;
-    }
-    contact.settles_at = Some(hit.time + if has_limit { flights } else { 0.0 });
-    let others: Vec<DVec3> = state.contacts[body as usize]
-        .iter()
-        .map(|contact| contact.touch(model, mover.radius, hit.position, hit.velocity).towards)
-        .collect();
-    let velocity = level_velocity(hit.velocity, touch.towards, &others, model.params.rest_speed);
-    Some(Settling { contact, velocity })
-}
-
-/// In a wedge the last bounces off its sides differ in speed by the wedge's angles, not by more than this.
-const WEDGE_SPEEDS: f64 = 10.0;
-
-/// What is left of a velocity once its part along `towards` is taken whole, and the parts along the other
-/// surfaces too if they are about as small: bounces in a wedge end together.
-fn level_velocity(velocity: DVec3, towards: DVec3, others: &[DVec3], rest_speed: f64) -> DVec3 {
-    let level = velocity - velocity.dot(towards) * towards;
-    if others.iter().any(|other| level.dot(*other).abs() > WEDGE_SPEEDS * rest_speed) {
-        let all: Vec<DVec3> = others.iter().copied().chain([towards]).collect();
-        return into_cone(level, &all);
-    }
-    let all: Vec<DVec3> = [towards].into_iter().chain(others.iter().copied()).collect();
-    let left = along_all(level, &all);
-    if left.length() <= VELOCITY_ROUNDING * velocity.length() { DVec3::ZERO } else { left }
-}
-
-/// The rounding of a velocity: below this fraction of it a normal component is no motion.
-const VELOCITY_ROUNDING: f64 = 1e-13;
-
-/// Drops the contacts that a new velocity leaves or runs into (the impact follows at once), and takes
-/// the rounding of the others out of it. Gives the velocity.
-pub(super) fn keep_contacts(
-    model: &Model,
-    state: &mut State,
-    body: u32,
-    time: f64,
-    position: DVec3,
-    velocity: DVec3,
-) -> DVec3 {
-    if state.contacts[body as usize].is_empty() {
-        return velocity;
-    }
-    let radius = model.movers[body as usize].radius;
-    let tolerance = VELOCITY_ROUNDING * velocity.length();
-    let mut kept = Vec::new();
-    let mut velocity_left = velocity;
-    for contact in std::mem::take(&mut state.contacts[body as usize]) {
-        let touch = contact.touch(model, radius, position, velocity);
-        let entering = velocity.dot(touch.towards);
-        if entering.abs() <= tolerance {
-            velocity_left -= velocity_left.dot(touch.towards) * touch.towards;
-            kept.push(contact);
-        } else if entering < 0.0 {
-            record_contact(model, state, time, EventKind::LiftOff, body, contact.fixture);
+        if let Some(end) = end_of_face(model, state, body, &contact, time) {
+            state.predict_of(end, [Kind::PairEnd, Kind::ContactEnd], pair);
         }
     }
-    state.contacts[body as usize] = kept;
-    velocity_left
+    predict_parting(model, state, body);
 }
 
-/// Drops the contacts that nothing presses on at the start of a segment, and brings the others up to date
-/// (a body rolls from an edge onto the face).
-pub(super) fn prune_contacts(model: &Model, state: &mut State, body: u32, time: f64, x: DVec3, v: DVec3) {
-    if state.contacts[body as usize].is_empty() {
+/// Predicts where the island of a body comes apart, once for all its bodies.
+fn predict_parting(model: &Model, state: &mut State, body: u32) {
+    if state.contacts[body as usize].is_empty() || state.segments[body as usize].step == 0.0 {
         return;
     }
-    let radius = model.movers[body as usize].radius;
-    let mut at = subject(model, state, body, time);
-    (at.position, at.low, at.velocity) = (x, DVec3::ZERO, v);
-    let free = applied_force(model, &at) / at.mass;
-    let old = std::mem::take(&mut state.contacts[body as usize]);
-    let touches = touches_at(model, &old, radius, x, v);
-    let mut kept = Vec::new();
-    for (index, contact) in old.into_iter().enumerate() {
-        if is_held(&touches, index, free) {
-            let fresh = Contact::new(contact.fixture, &model.fixtures[contact.fixture as usize], x);
-            let surface = if contact.is_round() { fresh.surface } else { contact.surface };
-            kept.push(Contact { surface, ..contact });
-        } else {
-            record_contact(model, state, time, EventKind::LiftOff, body, contact.fixture);
+    let ids = connected(state, [body]);
+    if ids.first() != Some(&body) {
+        return;
+    }
+    if let Some((time, pairs)) = first_parting(model, state, &ids) {
+        for pair in pairs {
+            state.predict_of(time, [Kind::PairEnd, Kind::ContactEnd], pair);
         }
     }
-    state.contacts[body as usize] = kept;
+}
+
+/// First time at which the body slides off the face of a plate.
+fn end_of_face(model: &Model, state: &State, body: u32, contact: &Contact, time: f64) -> Option<f64> {
+    let (Surface::Flat(_), Partner::Static(fixture)) = (contact.surface, contact.partner) else {
+        return None;
+    };
+    let FixtureShape::Plate(plate) = &model.fixtures[fixture as usize].shape else { return None };
+    let path = state.path(body);
+    // A rounding beyond the edge, so that what comes next meets the edge and not the face again.
+    let beyond = touch_tolerance(path.segment.x, model.movers[body as usize].radius);
+    let sides = [
+        (plate.axis_x, plate.half_x),
+        (-plate.axis_x, plate.half_x),
+        (plate.axis_y, plate.half_y),
+        (-plate.axis_y, plate.half_y),
+    ];
+    sides
+        .into_iter()
+        .filter_map(|(axis, half)| {
+            first_beyond(path, axis, axis.dot(plate.center) + half + beyond, 0.0, time)
+        })
+        .reduce(f64::min)
+}
+
+/// A contact of a group that lasts from now on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Settling {
+    /// Which contact of the group.
+    pub member: usize,
+    /// When the last of the bounces left out would end; `None` for a contact that lasted before.
+    pub settles_at: Option<f64>,
+}
+
+/// Which contacts of a group last, after its impacts. Bounces are over if their sum has a near limit, or if
+/// they are lower than the rounding of the position: then the event comes at the limit time
+/// t + Σ flights = t + 2v'/(g(1−e)), and the velocities are levelled now.
+pub(super) fn settle(model: &Model, group: &mut Group) -> Vec<Settling> {
+    let mut candidates: Vec<Candidate> =
+        (0..group.members.len()).filter_map(|member| could_last(model, group, member)).collect();
+    if candidates.iter().any(|candidate| !candidate.is_undisturbed) {
+        drop_unsettled(model, group, &mut candidates);
+    }
+    let lasts = |candidate: &Candidate| Settling {
+        member: candidate.member,
+        settles_at: (!group.members[candidate.member].is_lasting).then_some(group.time + candidate.flights),
+    };
+    let settling: Vec<Settling> = candidates.iter().map(lasts).collect();
+    level(group, &settling);
+    settling
+}
+
+/// A contact that may last.
+struct Candidate {
+    member: usize,
+    /// It lasted before, and nothing has moved its bodies apart.
+    is_undisturbed: bool,
+    /// Sum of the bounces left out, s.
+    flights: f64,
+}
+
+/// Whether a contact is slow enough to last.
+fn could_last(model: &Model, group: &Group, index: usize) -> Option<Candidate> {
+    let member = &group.members[index];
+    let parting = -group.closing(member);
+    let is_undisturbed = member.is_lasting && parting <= group.rounding(member);
+    let slow = model.params.rest_speed.max((SLOWEST * slack(model, group, member)).sqrt());
+    (is_undisturbed || parting <= slow).then_some(Candidate { member: index, is_undisturbed, flights: 0.0 })
+}
+
+/// More than any acceleration times two that is worth a thought, m/s²: a first, coarse sieve.
+const SLOWEST: f64 = 1e6;
+
+fn slack(model: &Model, group: &Group, member: &Member) -> f64 {
+    touch_tolerance(group.bodies.x[member.link.a], model.movers[member.pair.a as usize].radius)
+}
+
+/// Leaves those candidates whose bounces end while all the others hold.
+fn drop_unsettled(model: &Model, group: &Group, candidates: &mut Vec<Candidate>) {
+    let free = group.bodies.free(model, group.time);
+    let links = group.acceleration_links(model);
+    loop {
+        let ends: Vec<Option<f64>> = candidates
+            .iter()
+            .map(|candidate| {
+                if candidate.is_undisturbed {
+                    return Some(0.0);
+                }
+                let others = candidates.iter().filter(|other| other.member != candidate.member);
+                let held: Vec<Link> = others.map(|other| links[other.member]).collect();
+                let pressing = pressing(group, &links[candidate.member], &held, &free)?;
+                remaining_flights(model, group, candidate.member, pressing)
+            })
+            .collect();
+        let before = candidates.len();
+        let mut end = ends.iter();
+        candidates.retain_mut(|candidate| {
+            let Some(flights) = end.next().copied().flatten() else { return false };
+            candidate.flights = flights;
+            true
+        });
+        if candidates.len() == before {
+            return;
+        }
+    }
+}
+
+/// Acceleration that presses two bodies together while the contacts `held` hold, m/s²; `None` if nothing
+/// does.
+fn pressing(group: &Group, link: &Link, held: &[Link], free: &[DVec3]) -> Option<f64> {
+    let mut driven = free.to_vec();
+    enter_none(held, &group.bodies.inverse_mass, &mut driven);
+    let size = link.b.map_or(0.0, |b| free[b].length()).max(free[link.a].length()) + link.limit;
+    let pressing = link.entering(&driven) - link.limit;
+    (pressing > PRESSURE_ROUNDING * size).then_some(pressing)
+}
+
+/// Sum of the flights that are left under an acceleration that presses the bodies together, s; `None` if it
+/// is not to be left out.
+fn remaining_flights(model: &Model, group: &Group, index: usize, pressing: f64) -> Option<f64> {
+    let member = &group.members[index];
+    let parting = (-group.closing(member)).max(0.0);
+    let flights = 2.0 * parting / (pressing * (1.0 - member.restitution));
+    let has_limit =
+        member.restitution < 1.0 && parting <= model.params.rest_speed && flights <= model.params.rest_time;
+    if has_limit {
+        return Some(flights);
+    }
+    let is_below_rounding = parting * parting <= 2.0 * pressing * slack(model, group, member);
+    is_below_rounding.then_some(0.0)
+}
+
+/// Takes what still parts or enters at lasting contacts out of the velocities.
+fn level(group: &mut Group, settling: &[Settling]) {
+    let links: Vec<Link> = settling.iter().map(|contact| group.members[contact.member].link).collect();
+    let entering: Vec<f64> = links.iter().map(|link| link.entering(&group.bodies.v)).collect();
+    let multipliers = stay_on(&links, &group.bodies.inverse_mass, &mut group.bodies.v);
+    for ((contact, multiplier), entering) in settling.iter().zip(multipliers).zip(entering) {
+        group.members[contact.member].impulse += multiplier;
+        group.loss += 0.5 * multiplier * entering;
+    }
 }
 
 /// How a body moves at a time, for people: a body in contact that neither moves nor is driven rests.

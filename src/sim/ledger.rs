@@ -27,8 +27,8 @@ pub enum EventKind {
     LiftOff,
     /// A body passed a point attractor within the core radius.
     SingularPass,
-    /// Impacts of a body follow each other without end: from here on they keep their energy, and are not
-    /// listed until they have stopped.
+    /// An impact that follows so many others so closely that there would be no end to them: from here on the
+    /// bodies do not bounce off each other (restitution 0) until it has been quiet for a while.
     Collapse,
     /// The scene was edited while it ran.
     Edit,
@@ -67,7 +67,7 @@ impl EventKind {
             Self::LiftOff => "a body in contact left the surface",
             Self::SingularPass => "a body passed a point attractor within the core radius",
             Self::Collapse => {
-                "impacts follow each other without end: they keep their energy and are not listed until that stops"
+                "impacts follow each other without end: from here on these bodies do not bounce until it is quiet"
             }
             Self::Edit => "the scene was edited while it ran",
         }
@@ -95,7 +95,26 @@ pub struct Event {
     /// Normal component of the velocity of `b` relative to `a` along `normal`: negative when closing, m/s.
     pub vn_before: f64,
     pub vn_after: f64,
-    /// Number of the impact, from 1: each is a group of its own, also among those of the same instant. 0 for
-    /// events that resolve no impact.
+    /// Number of the impact group, from 1: the contacts of bodies that touch are resolved together and share
+    /// it, one row each. 0 for events that resolve no impact.
     pub group: u64,
+}
+
+impl Event {
+    /// An event of one body that exchanges no impulse, not yet numbered.
+    pub(super) fn of_one(time: f64, kind: EventKind, body: BodyRef, point: DVec3) -> Self {
+        Self {
+            seq: 0,
+            time,
+            kind,
+            a: body,
+            b: None,
+            point,
+            normal: DVec3::ZERO,
+            impulse: 0.0,
+            vn_before: 0.0,
+            vn_after: 0.0,
+            group: 0,
+        }
+    }
 }

@@ -16,9 +16,12 @@ mod plan;
 
 // The step, from the top down.
 mod change;
+mod constraint;
 mod contact;
 mod engine;
+mod group;
 mod impact;
+mod island;
 mod lasting;
 mod motion;
 mod neighbours;

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::contact::Partner;
 use super::model::Model;
 use super::predict;
 use super::queue::Kind;
@@ -149,7 +150,8 @@ fn predict_neighbours(
     collect(model, state, &mut scratch, body, range, known);
     let mover = state.mover(model, body);
     let looked_at = scratch.found_moving.len();
-    scratch.found_moving.retain(|other| !predict::surely_pass(mover, state.mover(model, *other)));
+    let near = model.params.contact_distance;
+    scratch.found_moving.retain(|other| !predict::surely_pass(mover, state.mover(model, *other), near));
     state.counters.pair_tests += (looked_at - scratch.found_moving.len()) as u64;
     for other in &scratch.found_moving {
         predict_pair(model, state, body, *other, f64::NEG_INFINITY, time);
@@ -192,16 +194,34 @@ fn collect(
     }
 }
 
-/// Predicts the next impact of two dynamic bodies. `from` is −∞ but where an earlier search gave up.
+/// Predicts the next impact of two dynamic bodies that are not in lasting contact. `from` is −∞ but where an
+/// earlier search gave up.
 pub(super) fn predict_pair(model: &Model, state: &mut State, a: u32, b: u32, from: f64, time: f64) {
     // The order of the two must not matter to the last bit.
     let (a, b) = (a.min(b), a.max(b));
-    state.counters.pair_tests += 1;
-    if let Some(impact) =
-        predict::sphere_sphere(state.mover(model, a), state.mover(model, b), &model.params, from)
-    {
-        state.predict_pair(impact.max(time), a, b);
+    if !state.contacts[a as usize].is_empty() && state.is_in_contact(a, Partner::Dynamic(b)) {
+        return;
     }
+    state.counters.pair_tests += 1;
+    if lies_against(model, state, a, b, time) {
+        state.note_touching(a, b);
+    }
+    if let Some(impact) = predict::sphere_sphere(state.mover(model, a), state.mover(model, b), from) {
+        state.predict_pair(impact.max(time), Kind::Impact, a, b);
+    }
+}
+
+/// Whether two dynamic bodies touch to within the contact distance and will for a while: an impact on one
+/// of them is an impact on both.
+fn lies_against(model: &Model, state: &State, a: u32, b: u32, time: f64) -> bool {
+    let params = &model.params;
+    let apart = state.position(b, time) - state.position(a, time);
+    let reach = model.movers[a as usize].radius + model.movers[b as usize].radius + params.contact_distance;
+    if apart.length_squared() > reach * reach {
+        return false;
+    }
+    let rate = apart.dot(state.velocity(b, time) - state.velocity(a, time));
+    rate.abs() * params.contact_duration <= params.contact_distance * apart.length()
 }
 
 /// Predicts the next impact of a dynamic body with a static one it is not in lasting contact with.
@@ -213,7 +233,7 @@ pub(super) fn predict_fixture(
     from: f64,
     time: f64,
 ) {
-    if state.is_touching(body, fixture) {
+    if !state.contacts[body as usize].is_empty() && state.is_in_contact(body, Partner::Static(fixture)) {
         return;
     }
     state.counters.pair_tests += 1;

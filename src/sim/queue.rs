@@ -13,14 +13,25 @@ pub(super) enum Kind {
     LeaveTiles,
     /// A body comes within the core radius of point attractor `b`.
     CorePass,
+    /// The last of the skipped bounces of dynamic bodies `a` and `b` on each other would end.
+    PairSettled,
     /// The last of a body's skipped bounces on static body `b` would end.
     Settled,
+    /// Dynamic bodies `a` and `b` in lasting contact part.
+    PairEnd,
     /// A body in lasting contact leaves static body `b`.
     ContactEnd,
     /// Dynamic bodies `a` and `b` touch.
     Impact,
     /// Dynamic body `a` touches static body `b`.
     FixtureImpact,
+}
+
+impl Kind {
+    /// Whether `b` is a dynamic body too.
+    pub fn is_of_pair(self) -> bool {
+        matches!(self, Self::PairSettled | Self::PairEnd | Self::Impact)
+    }
 }
 
 /// A prediction, good as long as the bodies it was made for have not changed.

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::account::Account;
 use super::compile::Start;
-use super::contact::Contact;
+use super::contact::{Contact, Pair, Partner};
 use super::model::Model;
 use super::motion::Plunge;
 use super::predict::Mover;
@@ -35,6 +35,8 @@ pub(super) struct State {
     pub plunges: BTreeMap<u32, Plunge>,
     /// Lasting contacts; most bodies have none.
     pub contacts: Vec<Vec<Contact>>,
+    /// Dynamic bodies that lie against each body and hardly move away, without lasting contact.
+    pub touching: Vec<Vec<u32>>,
     /// The impacts of each body that follow each other closely.
     pub cascades: Vec<Cascade>,
     pub moving: MovingTiles,
@@ -88,6 +90,7 @@ impl State {
             fields: Vec::new(),
             plunges: BTreeMap::new(),
             contacts: Vec::with_capacity(starts.len()),
+            touching: Vec::with_capacity(starts.len()),
             cascades: Vec::with_capacity(starts.len()),
             moving: MovingTiles::default(),
             queue: Queue::default(),
@@ -112,6 +115,7 @@ impl State {
         self.stamps.push(0);
         self.registered.push(TileRange::default());
         self.contacts.push(Vec::new());
+        self.touching.push(Vec::new());
         self.cascades.push(Cascade { last_impact: f64::NEG_INFINITY, length: 0 });
         index
     }
@@ -141,7 +145,7 @@ impl State {
     /// Whether a prediction was made for the segments that its bodies still follow.
     pub fn holds(&self, predicted: &Predicted) -> bool {
         self.stamps[predicted.a as usize] == predicted.stamp_a
-            && (predicted.kind != Kind::Impact || self.stamps[predicted.b as usize] == predicted.stamp_b)
+            && (!predicted.kind.is_of_pair() || self.stamps[predicted.b as usize] == predicted.stamp_b)
     }
 
     /// A prediction for one body (and perhaps something that does not move).
@@ -151,20 +155,38 @@ impl State {
     }
 
     /// A prediction for two dynamic bodies.
-    pub fn predict_pair(&mut self, time: f64, a: u32, b: u32) {
+    pub fn predict_pair(&mut self, time: f64, kind: Kind, a: u32, b: u32) {
         let (a, b) = (a.min(b), a.max(b));
         let (stamp_a, stamp_b) = (self.stamps[a as usize], self.stamps[b as usize]);
-        self.queue.push(Predicted { time, kind: Kind::Impact, a, b, stamp_a, stamp_b });
+        self.queue.push(Predicted { time, kind, a, b, stamp_a, stamp_b });
     }
 
-    /// Whether a body is in a cascade of impacts that has been listed as a collapse.
-    pub fn is_in_collapse(&self, model: &Model, body: u32, time: f64) -> bool {
-        let cascade = self.cascades[body as usize];
-        f64::from(cascade.length) >= model.params.collapse_count
-            && time - cascade.last_impact < model.params.contact_duration
+    /// A prediction for the bodies of a pair: `kinds` are for a dynamic and a static partner.
+    pub fn predict_of(&mut self, time: f64, kinds: [Kind; 2], pair: Pair) {
+        match pair.partner {
+            Partner::Dynamic(other) => self.predict_pair(time, kinds[0], pair.a, other),
+            Partner::Static(fixture) => self.predict_one(time, kinds[1], pair.a, fixture),
+        }
     }
 
-    pub fn is_touching(&self, body: u32, fixture: u32) -> bool {
-        self.contacts[body as usize].iter().any(|contact| contact.fixture == fixture)
+    /// Whether a body is in lasting contact with a partner.
+    pub fn is_in_contact(&self, body: u32, partner: Partner) -> bool {
+        self.contacts[body as usize].iter().any(|contact| contact.partner == partner)
+    }
+
+    /// Notes that two dynamic bodies lie against each other.
+    pub fn note_touching(&mut self, a: u32, b: u32) {
+        for (body, other) in [(a, b), (b, a)] {
+            if !self.touching[body as usize].contains(&other) {
+                self.touching[body as usize].push(other);
+            }
+        }
+    }
+
+    /// Forgets what a body lies against: it begins another motion.
+    pub fn forget_touching(&mut self, body: u32) {
+        for other in std::mem::take(&mut self.touching[body as usize]) {
+            self.touching[other as usize].retain(|back| *back != body);
+        }
     }
 }

@@ -204,3 +204,15 @@ fn ball_in_a_wedge_comes_to_rest() {
         assert_eq!(advance(&mut sim, 1e3, Sampling::Every(1e2)), []);
     }
 }
+
+#[test]
+fn ball_on_a_ball_on_the_floor_stays_sound() {
+    for offset in [0.0, 0.1] {
+        let scene = empty()
+            .gravity(-9.8)
+            .floor(1, 3.0)
+            .body(lossy(dvec3(5.0, 1.0, 5.0), DVec3::ZERO))
+            .body(ball(3, dvec3(5.0 + offset, 3.0, 5.0), DVec3::ZERO).bounce(0.5));
+        crate::sim_random::assert_sound(&scene, 1.2, &format!("offset {offset}"));
+    }
+}

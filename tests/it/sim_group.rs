@@ -3,8 +3,8 @@
 use glam::{DVec3, dvec3};
 use polyscene::scene::Scene;
 
-use crate::common::build::{Build, Shaped, ball, empty};
-use crate::common::drive::{Sampling, advance, assert_same_bits, run, simulation, state_of};
+use crate::common::build::{Build, Shaped, ball, empty, plate};
+use crate::common::drive::{Sampling, advance, assert_same_bits, run, simulation, state_of, states};
 use crate::common::random::Random;
 
 #[test]
@@ -18,6 +18,26 @@ fn corner_of_two_and_three_walls_sends_a_ball_straight_back() {
         let turned = velocity * dvec3(-1.0, -1.0, if velocity.z.abs() < 1.0 { 1.0 } else { -1.0 });
         let found = state_of(&sim, 10).velocity;
         assert!((found - turned).length() <= 1e-12, "{velocity}: {found}");
+    }
+}
+
+#[test]
+fn corner_of_any_angle_keeps_energy_and_mirror_symmetry() {
+    // Falling into a V along its plane of symmetry, a ball comes back along it.
+    for tilt in [0.2, 0.5, 0.7, 1.0, 1.3] {
+        let side = |id: i64, sign: f64| {
+            let rotation = dvec3(-std::f64::consts::FRAC_PI_2, sign * tilt, 0.0);
+            plate(id, dvec3(5.0, 0.0, 5.0), rotation, 30.0, 30.0)
+        };
+        let scene = empty().body(side(1, 1.0)).body(side(2, -1.0)).ball(
+            3,
+            dvec3(5.0, 8.0, 5.0),
+            dvec3(0.0, -2.0, 0.0),
+        );
+        let mut sim = simulation(&scene);
+        advance(&mut sim, 5.0, Sampling::Every(0.3));
+        let velocity = state_of(&sim, 3).velocity;
+        assert!((velocity - dvec3(0.0, 2.0, 0.0)).length() <= 1e-12, "tilt {tilt}: {velocity}");
     }
 }
 
@@ -58,6 +78,30 @@ fn billiard(ids: &[i64; 16]) -> Scene {
         }
     }
     scene
+}
+
+#[test]
+fn billiard_break_keeps_mirror_symmetry_energy_and_momentum() {
+    // NUMERICS case 5: contact is at t = 1/3 s.
+    let ids: [i64; 16] = std::array::from_fn(|k| k as i64 + 1);
+    for (time, tolerance) in [(1.0 / 3.0 + 1e-9, 1e-12), (1.0 / 3.0 + 0.1, 1e-9)] {
+        let mut sim = simulation(&billiard(&ids));
+        advance(&mut sim, time, Sampling::Every(1.0));
+        let found: Vec<_> = states(&sim).iter().map(|(_, state)| state.velocity).collect();
+        let mut next = 1;
+        for row in 0..5 {
+            for place in 0..=row {
+                let (v, mirror) = (found[next + place], found[next + row - place]);
+                let off = (v - mirror * dvec3(1.0, 1.0, -1.0)).length();
+                assert!(off <= tolerance * 6.0, "t {time}, row {row}, place {place}: {v} and {mirror}");
+            }
+            next += row + 1;
+        }
+        let energy: f64 = found.iter().map(|v| v.length_squared() / 2.0).sum();
+        assert!((energy / 18.0 - 1.0).abs() <= 1e-12, "t {time}: energy {energy}");
+        let momentum: DVec3 = found.iter().sum();
+        assert!((momentum - dvec3(6.0, 0.0, 0.0)).length() <= 1e-12, "t {time}: momentum {momentum}");
+    }
 }
 
 #[test]

@@ -80,6 +80,21 @@ fn lossy_ball_comes_to_rest_at_the_limit_time() {
 }
 
 #[test]
+fn nearly_elastic_ball_comes_to_rest_too() {
+    let fall = (2.0 * 0.5 / 9.8_f64).sqrt();
+    for e in [0.9, 0.99, 0.999] {
+        let dropped = ball(2, dvec3(5.0, 1.0, 5.0), DVec3::ZERO).bounce(e);
+        let mut sim = simulation(&empty().gravity(-9.8).floor(1, 3.0).body(dropped));
+        let end = fall * (1.0 + e) / (1.0 - e);
+        let events = advance(&mut sim, end * 1.01, Sampling::Every(1.0));
+        let last = events.last().expect("events");
+        assert_eq!(last.kind, EventKind::Rest, "e = {e}: {last:?}");
+        assert!((last.time - end).abs() <= 1e-6, "e = {e}: {last:?}, expected at {end}");
+        assert_eq!(state_of(&sim, 2).velocity, DVec3::ZERO);
+    }
+}
+
+#[test]
 fn residual_counts_what_impacts_and_rest_take() {
     let mut sim = simulation(&drop(0.8));
     watch(&mut sim, 12.0, Sampling::Every(0.1), |sim, _| {

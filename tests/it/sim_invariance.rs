@@ -4,7 +4,9 @@ use glam::DVec3;
 use polyscene::scene::Scene;
 
 use crate::common::build::{Build, thesis};
-use crate::common::drive::{Run, SAMPLINGS, Sampling, advance, assert_same_bits, finished, run, simulation};
+use crate::common::drive::{
+    Run, SAMPLINGS, Sampling, advance, assert_same_bits, finished, run, simulation, states,
+};
 use crate::common::load::load;
 use crate::common::random::Random;
 use crate::sim_random::{Contents, random_scene};
@@ -156,6 +158,21 @@ fn a_step_may_be_given_up_for_another() {
     }
     events.extend(advance(&mut sim, 6.0, Sampling::Every(1.0)));
     assert_same_bits(&expected, &finished(&sim, events), "with steps given up");
+}
+
+#[test]
+fn reading_after_the_last_event_gives_the_state_at_that_time() {
+    let scene = thesis();
+    let mut sim = simulation(&scene);
+    sim.begin(10.0);
+    while sim.next_event().expect("a run without faults").is_some() {}
+    let residual = sim.energy().residual.expect("both forces have potentials");
+    assert!(residual.abs() <= 1e-10, "t {}: residual {residual:e}", sim.time());
+    let expected = run(&scene, sim.time(), Sampling::Every(1.0));
+    for ((_, left), (_, right)) in states(&sim).iter().zip(&expected.states) {
+        assert!((left.position - right.position).length() <= 1e-12, "{left:?} {right:?}");
+        assert!((left.velocity - right.velocity).length() <= 1e-12, "{left:?} {right:?}");
+    }
 }
 
 #[test]

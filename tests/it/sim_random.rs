@@ -196,6 +196,27 @@ fn elastic_scenes_stay_sound() {
 }
 
 #[test]
+fn scenes_of_lossy_statics_stay_sound_and_come_to_an_end() {
+    for seed in 400..420 {
+        assert_sound(&random_scene(seed, Contents::LossyStatics), 8.0, &format!("seed {seed}"));
+    }
+}
+
+#[test]
+fn lossy_scenes_stay_sound_and_come_to_an_end() {
+    for seed in 200..220 {
+        assert_sound(&random_scene(seed, Contents::Lossy), 3.5, &format!("seed {seed}"));
+    }
+}
+
+#[test]
+fn scenes_of_everything_stay_sound() {
+    for seed in 300..320 {
+        assert_sound(&random_scene(seed, Contents::Everything), 2.5, &format!("seed {seed}"));
+    }
+}
+
+#[test]
 fn gas_stays_sound() {
     let scene = load("gas.xml");
     assert_sound(&scene, 2.0, "gas");

@@ -5,7 +5,6 @@ use glam::DVec3;
 use super::plunge::{self, Next, Point};
 use super::radau::{RadauError, RadauStart, radau_step};
 use crate::sim::account::book_segment;
-use crate::sim::contact::{Contact, constrain};
 use crate::sim::force::{Law, Subject};
 use crate::sim::model::Model;
 use crate::sim::segment::Segment;
@@ -25,14 +24,8 @@ pub(in crate::sim) fn applied_force(model: &Model, subject: &Subject<'_>) -> DVe
     model.forces.iter().map(|force| force.law.force(subject)).sum()
 }
 
-/// Acceleration under the applied forces and the body's lasting contacts, m/s².
-fn acceleration_of(model: &Model, contacts: &[Contact], subject: &Subject<'_>) -> DVec3 {
-    let free = applied_force(model, subject) / subject.mass;
-    constrain(model, contacts, subject.radius, subject.position, subject.velocity, free)
-}
-
-/// Lets a body go on from (x, v) at `time`: books the old segment, begins the new one, and makes every
-/// prediction about the old one stale. An error leaves all as it was.
+/// Lets a body without lasting contacts go on from (x, v) at `time`: books the old segment, begins the new
+/// one, and makes every prediction about the old one stale. An error leaves all as it was.
 pub(in crate::sim) fn begin_segment(
     model: &Model,
     state: &mut State,
@@ -41,23 +34,41 @@ pub(in crate::sim) fn begin_segment(
     x: DVec3,
     v: DVec3,
 ) -> Result<(), SegmentError> {
-    if in_core(model, x) {
+    let (segment, column) = if model.is_ballistic() {
+        let subject = subject_at(model, body, time, x, v);
+        (Segment::ballistic(time, x, v, applied_force(model, &subject) / subject.mass), None)
+    } else {
+        integrated(model, state, body, time, x, v)?
+    };
+    check(model, &segment)?;
+    place(model, state, body, segment, column);
+    Ok(())
+}
+
+/// Whether a body can follow a segment.
+pub(in crate::sim) fn check(model: &Model, segment: &Segment) -> Result<(), SegmentError> {
+    if in_core(model, segment.x) {
         return Err(SegmentError::InCore);
     }
-    let (mut segment, column) = if needs_integration(model, state, body) {
-        integrated(model, state, body, time, x, v)?
-    } else {
-        let subject = subject_at(model, body, time, x, v);
-        let a = acceleration_of(model, &state.contacts[body as usize], &subject);
-        (Segment::ballistic(time, x, v, a), None)
-    };
     // The squares too: searches work with lengths, and do not end on infinite ones.
-    if ![segment.x, segment.v, segment.a].iter().all(|vector| vector.length_squared().is_finite()) {
-        return Err(SegmentError::NotFinite);
+    if [segment.x, segment.v, segment.a].iter().all(|vector| vector.length_squared().is_finite()) {
+        Ok(())
+    } else {
+        Err(SegmentError::NotFinite)
     }
-    book_segment(model, state, body, time);
+}
+
+/// Books a body's old segment and puts a sound new one in its place.
+pub(in crate::sim) fn place(
+    model: &Model,
+    state: &mut State,
+    body: u32,
+    segment: Segment,
+    column: Option<FieldColumn>,
+) {
+    book_segment(model, state, body, segment.start);
+    state.forget_touching(body);
     let index = body as usize;
-    segment.constrained = !state.contacts[index].is_empty();
     if let Some(column) = column {
         if state.fields.len() <= index {
             state.fields.resize(state.segments.len(), FieldColumn::default());
@@ -67,7 +78,16 @@ pub(in crate::sim) fn begin_segment(
     state.segments[index] = segment;
     state.stamps[index] = state.stamps[index].wrapping_add(1);
     state.counters.segments += 1;
-    Ok(())
+}
+
+/// The step that the integrator would try next for a body in contact whose segment ends; 0 if unknown.
+pub(in crate::sim) fn step_hint(state: &State, body: u32, time: f64) -> f64 {
+    let old = &state.segments[body as usize];
+    if old.constrained && old.step > 0.0 && old.end == time {
+        state.fields[body as usize].next_step
+    } else {
+        0.0
+    }
 }
 
 /// Whether a point lies well inside the core of an attractor: a body that falls there turns back at the
@@ -82,10 +102,6 @@ fn in_core(model: &Model, at: DVec3) -> bool {
     })
 }
 
-fn needs_integration(model: &Model, state: &State, body: u32) -> bool {
-    !model.is_ballistic() || state.contacts[body as usize].iter().any(Contact::is_round)
-}
-
 /// One step of the field integrator. Its length comes from the state and the parameters only, so that it
 /// does not depend on when somebody looks.
 fn integrated(
@@ -98,7 +114,7 @@ fn integrated(
 ) -> Result<(Segment, Option<FieldColumn>), SegmentError> {
     let old = state.segments[body as usize];
     let column = state.fields.get(body as usize).copied().unwrap_or_default();
-    let goes_on = old.step > 0.0 && old.end == time;
+    let goes_on = old.step > 0.0 && old.end == time && !old.constrained;
     let from = match plunge::next(state, body, time, v) {
         Some(Next::Leg(leg)) => {
             let (segment, series) = *leg;
@@ -120,10 +136,9 @@ fn integrated(
         previous: goes_on.then_some((&column.series, old.step)),
         tolerance: model.params.field_tolerance,
     };
-    let contacts = &state.contacts[body as usize];
     let step = radau_step(&start, &mut state.counters.force_evaluations, |time, at, v| {
         let subject = Subject { low: at.low, ..subject_at(model, body, time, at.x, v) };
-        acceleration_of(model, contacts, &subject)
+        applied_force(model, &subject) / subject.mass
     });
     let (segment, series, next_step) = step.map_err(|error| match error {
         RadauError::NotFinite => SegmentError::NotFinite,
@@ -139,7 +154,13 @@ fn low_part(state: &State, body: u32, time: f64, x: DVec3) -> DVec3 {
     if path.series.is_some() && at == x { low } else { DVec3::ZERO }
 }
 
-fn subject_at(model: &Model, body: u32, time: f64, position: DVec3, velocity: DVec3) -> Subject<'_> {
+pub(in crate::sim) fn subject_at(
+    model: &Model,
+    body: u32,
+    time: f64,
+    position: DVec3,
+    velocity: DVec3,
+) -> Subject<'_> {
     let mover = &model.movers[body as usize];
     Subject {
         time,

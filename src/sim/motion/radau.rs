@@ -10,7 +10,7 @@ use crate::sim::segment::{SERIES, Segment, Series, split};
 
 /// Left Radau nodes on [0, 1]: 0 and the zeros of a Jacobi polynomial (Everhart 1985, table 1).
 #[allow(clippy::excessive_precision, reason = "the digits as published; the compiler rounds them")]
-const NODES: [f64; SERIES + 1] = [
+pub(super) const NODES: [f64; SERIES + 1] = [
     0.0,
     0.056_262_560_536_922_146_465_652_191_031_8,
     0.180_240_691_736_892_364_987_579_942_780,
@@ -22,7 +22,7 @@ const NODES: [f64; SERIES + 1] = [
 ];
 
 /// `TO_POWERS[n][i]`: coefficient of s^(i+1) in s(s−h₁)…(s−hₙ), which turns divided differences into b.
-const TO_POWERS: [[f64; SERIES]; SERIES] = to_powers();
+pub(super) const TO_POWERS: [[f64; SERIES]; SERIES] = to_powers();
 
 const fn to_powers() -> [[f64; SERIES]; SERIES] {
     let mut table = [[0.0; SERIES]; SERIES];
@@ -73,14 +73,14 @@ static WEIGHTS: [[(f64, f64); SERIES]; SERIES + 1] = {
 };
 
 /// Step ratio below which a step is repeated, and whose inverse bounds growth (Rein & Spiegel 2015).
-const SAFETY: f64 = 0.25;
+pub(super) const SAFETY: f64 = 0.25;
 /// Corrector passes before a step counts as not convergent; smooth fields need 2 to 6.
-const MAX_PASSES: u32 = 12;
+pub(super) const MAX_PASSES: u32 = 12;
 /// A change of b₆ this small against the acceleration ends the corrector: it enters the velocity by an eighth
 /// and the position by a 72nd, so that is rounding.
-const CONVERGED: f64 = 5e-16;
+pub(super) const CONVERGED: f64 = 5e-16;
 /// Steps are never longer than this, s: a field may vary in time.
-const LONGEST_STEP: f64 = 100.0;
+pub(super) const LONGEST_STEP: f64 = 100.0;
 /// The acceleration counts as at least this fraction of speed per step when the error is judged, so that
 /// a body whose acceleration fades (drag at terminal speed) is not integrated to digits nobody can see.
 const SPEED_FLOOR: f64 = 1e-3;
@@ -249,17 +249,17 @@ fn terms_at(series: &Series, node: usize) -> (DVec3, DVec3) {
 /// What the rounding of the position does to an acceleration that changes by `rise` over `way`, m/s².
 /// Near the core of an attractor far from the origin it exceeds any tolerance, and no step is short
 /// enough to meet that.
-fn rounding_of(rise: DVec3, way: DVec3, position: DVec3) -> f64 {
+pub(super) fn rounding_of(rise: DVec3, way: DVec3, position: DVec3) -> f64 {
     let way = way.length();
     if way > 0.0 { f64::EPSILON * position.length() * rise.length() / way } else { 0.0 }
 }
 
-fn scale(largest_acceleration: f64, v: DVec3, step: f64) -> f64 {
+pub(super) fn scale(largest_acceleration: f64, v: DVec3, step: f64) -> f64 {
     largest_acceleration.max(SPEED_FLOOR * v.length() / step).max(f64::MIN_POSITIVE)
 }
 
 /// The n-th divided difference of the accelerations; gives its change.
-fn update_difference(differences: &mut [DVec3; SERIES], n: usize, rise: DVec3) -> DVec3 {
+pub(super) fn update_difference(differences: &mut [DVec3; SERIES], n: usize, rise: DVec3) -> DVec3 {
     let mut value = rise * SPACINGS[n][0];
     for (difference, spacing) in differences.iter().zip(&SPACINGS[n][1..n]) {
         value = (value - difference) * *spacing;

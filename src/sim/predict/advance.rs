@@ -34,9 +34,8 @@ pub(super) fn first_contact(search: Search, gap_at: impl Fn(f64) -> Gap) -> Opti
         if gap.distance <= 0.0 && closing {
             return Some(time);
         }
-        // A parting pair may be a rounding apart or inside: without the slack it would never get away.
-        let distance = if closing { gap.distance } else { gap.distance.max(0.0) + search.slack };
         let bend = search.acceleration_bound.map_or(gap.drive, |bound| -bound);
+        let distance = if closing { gap.distance } else { parting_distance(&gap, bend, search.slack) };
         let next = time + first_root(distance, gap.rate, bend)?;
         if !(next <= search.until && next.is_finite()) {
             return None;
@@ -47,4 +46,11 @@ pub(super) fn first_contact(search: Search, gap_at: impl Fn(f64) -> Gap) -> Opti
         time = next;
     }
     Some(time)
+}
+
+/// From where a parting pair falls back. It may be a rounding inside: if it gets out, it meets again where it
+/// would have met; if not, a slack deeper, for without one it would never get away.
+fn parting_distance(gap: &Gap, bend: f64, slack: f64) -> f64 {
+    let gets_out = gap.rate > 0.0 && gap.rate * gap.rate > 2.0 * bend.abs() * (slack - gap.distance.min(0.0));
+    if gets_out { gap.distance } else { gap.distance.max(0.0) + slack }
 }

@@ -8,7 +8,6 @@ use glam::DVec3;
 
 use super::model::{Fixture, FixtureShape};
 use super::segment::Path;
-use crate::scene::SimParams;
 
 pub(super) use sphere_plane::{Feature, closest_on_plate};
 
@@ -43,6 +42,15 @@ fn snap(value: f64, size: f64) -> f64 {
     if value.abs() <= ROUNDING * size { 0.0 } else { value }
 }
 
+/// The rounding of the acceleration that presses bodies together, as a fraction of their accelerations:
+/// surfaces at rest against each other are pressed above it, parted below its negative, and neither between.
+pub(super) const PRESSURE_ROUNDING: f64 = 1e-12;
+
+/// As [`snap`], for accelerations.
+fn snap_pressure(value: f64, size: f64) -> f64 {
+    if value.abs() <= PRESSURE_ROUNDING * size { 0.0 } else { value }
+}
+
 /// A sphere on its way.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Mover<'a> {
@@ -56,29 +64,17 @@ pub(super) fn touch_tolerance(at: DVec3, radius: f64) -> f64 {
     8.0 * f64::EPSILON * at.abs().max_element().max(radius)
 }
 
-/// How long two moving bodies that lie against each other are let go on before they are parted again, s.
-/// Under the closing acceleration a they overlap by ½·a·t² at most, an eighth of the contact distance.
-pub(super) fn hold_time(params: &SimParams, closing_acceleration: f64) -> f64 {
-    let longest = 0.25 * params.contact_duration;
-    if closing_acceleration > 0.0 {
-        longest.min(0.5 * (params.contact_distance / closing_acceleration).sqrt())
-    } else {
-        longest
-    }
-}
-
 /// First time, not before `from` nor before both segments begin and not after either ends, at which two
 /// dynamic spheres touch while closing. A pure function of its arguments; `from` is −∞ but for a search
-/// that goes on from where an earlier one gave up. A pair that lies against each other under pressure is
-/// let go on for [`hold_time`].
-pub(super) fn sphere_sphere(a: Mover<'_>, b: Mover<'_>, params: &SimParams, from: f64) -> Option<f64> {
-    sphere_sphere::first_contact(a, b, params, from)
+/// that goes on from where an earlier one gave up.
+pub(super) fn sphere_sphere(a: Mover<'_>, b: Mover<'_>, from: f64) -> Option<f64> {
+    sphere_sphere::first_contact(a, b, from)
 }
 
 /// Whether two dynamic spheres fly straight as seen from each other and pass or part: a quick look that is
-/// sure where it says so.
-pub(super) fn surely_pass(a: Mover<'_>, b: Mover<'_>) -> bool {
-    sphere_sphere::surely_pass(a, b)
+/// sure where it says so. It says so of no pair nearer than `near`, m.
+pub(super) fn surely_pass(a: Mover<'_>, b: Mover<'_>, near: f64) -> bool {
+    sphere_sphere::surely_pass(a, b, near)
 }
 
 pub(super) fn sphere_sphere_gap(a: Mover<'_>, b: Mover<'_>, time: f64) -> Gap {

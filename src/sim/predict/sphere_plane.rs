@@ -4,7 +4,7 @@
 use glam::DVec3;
 
 use super::advance::{Search, first_contact as advance};
-use super::{Gap, Mover, snap, touch_tolerance};
+use super::{Gap, Mover, snap, snap_pressure, touch_tolerance};
 use crate::sim::model::Plate;
 use crate::sim::roots::first_root;
 
@@ -44,7 +44,7 @@ pub(super) fn gap(mover: Mover<'_>, plate: &Plate, time: f64) -> Gap {
     Gap {
         distance: near.distance - mover.radius,
         rate: snap(-near.towards.dot(velocity), velocity.length()),
-        bend: snap(turn + drive, acceleration.length() + turn),
+        bend: snap_pressure(turn + drive, acceleration.length() + turn),
         drive,
         normal: near.towards,
         point: at + mover.radius * near.towards,

@@ -3,8 +3,7 @@
 use glam::DVec3;
 
 use super::advance::{Search, first_contact as advance};
-use super::{Gap, Mover, hold_time, snap, touch_tolerance};
-use crate::scene::SimParams;
+use super::{Gap, Mover, snap, snap_pressure, touch_tolerance};
 
 /// Relative motion of `b` as seen from `a`.
 struct Relative {
@@ -13,9 +12,11 @@ struct Relative {
     acceleration: DVec3,
     /// Size of the speeds whose difference the velocity is: its rounding is a fraction of that.
     speeds: f64,
+    /// The same for the accelerations.
+    drives: f64,
 }
 
-pub(super) fn first_contact(a: Mover<'_>, b: Mover<'_>, params: &SimParams, from: f64) -> Option<f64> {
+pub(super) fn first_contact(a: Mover<'_>, b: Mover<'_>, from: f64) -> Option<f64> {
     let (seg_a, seg_b) = (a.path.segment, b.path.segment);
     let from = seg_a.start.max(seg_b.start).max(from);
     let until = seg_a.end.min(seg_b.end);
@@ -27,18 +28,15 @@ pub(super) fn first_contact(a: Mover<'_>, b: Mover<'_>, params: &SimParams, from
         let tau = straight(position, velocity_b - velocity_a, speeds, a.radius + b.radius);
         return tau.map(|tau| from + tau).filter(|time| *time <= until);
     }
-    let relative = relative(a, b, from);
-    if let Some(hold) = pressed_together(a, b, &relative, params) {
-        return Some(from + hold).filter(|time| *time <= until);
-    }
     let acceleration_bound = (!parabolas).then_some(seg_a.acceleration_bound + seg_b.acceleration_bound);
     let slack = touch_tolerance(seg_a.x, a.radius).max(touch_tolerance(seg_b.x, b.radius));
     advance(Search { from, until, acceleration_bound, slack }, |time| gap(a, b, time))
 }
 
-/// Without branches but one, so that the looks at many bodies overlap in the processor.
+/// A pair nearer than `near` may lie against each other. Without branches but one, so that the looks at many
+/// bodies overlap in the processor.
 #[inline]
-pub(super) fn surely_pass(a: Mover<'_>, b: Mover<'_>) -> bool {
+pub(super) fn surely_pass(a: Mover<'_>, b: Mover<'_>, near: f64) -> bool {
     let (seg_a, seg_b) = (a.path.segment, b.path.segment);
     if seg_a.step > 0.0 || seg_b.step > 0.0 || seg_a.a != seg_b.a {
         return false;
@@ -48,7 +46,9 @@ pub(super) fn surely_pass(a: Mover<'_>, b: Mover<'_>) -> bool {
     let p = (seg_b.x + tau_b * (seg_b.v + (0.5 * tau_b) * seg_b.a))
         - (seg_a.x + tau_a * (seg_a.v + (0.5 * tau_a) * seg_a.a));
     let v = (seg_b.v + tau_b * seg_b.a) - (seg_a.v + tau_a * seg_a.a);
-    (p.dot(v) >= 0.0) | misses(p, v, a.radius + b.radius)
+    let reach = a.radius + b.radius;
+    let apart = p.length_squared() > (reach + near) * (reach + near);
+    ((p.dot(v) >= 0.0) & apart) | misses(p, v, reach)
 }
 
 pub(super) fn first_contact_fixed(mover: Mover<'_>, center: DVec3, radius: f64, from: f64) -> Option<f64> {
@@ -79,17 +79,20 @@ pub(super) fn gap_fixed(mover: Mover<'_>, center: DVec3, radius: f64, time: f64)
         velocity: -velocity,
         acceleration: -mover.path.acceleration(time),
         speeds: velocity.length(),
+        drives: mover.path.acceleration(time).length(),
     };
     gap_of(&relative, at, mover.radius, radius)
 }
 
 fn relative(a: Mover<'_>, b: Mover<'_>, time: f64) -> Relative {
     let (velocity_a, velocity_b) = (a.path.velocity(time), b.path.velocity(time));
+    let (drive_a, drive_b) = (a.path.acceleration(time), b.path.acceleration(time));
     Relative {
         position: b.path.position(time) - a.path.position(time),
         velocity: velocity_b - velocity_a,
-        acceleration: b.path.acceleration(time) - a.path.acceleration(time),
+        acceleration: drive_b - drive_a,
         speeds: velocity_a.length() + velocity_b.length(),
+        drives: drive_a.length() + drive_b.length(),
     }
 }
 
@@ -106,23 +109,11 @@ fn gap_of(relative: &Relative, at: DVec3, radius_a: f64, radius_b: f64) -> Gap {
     Gap {
         distance: distance - (radius_a + radius_b),
         rate: snap(rate, relative.speeds),
-        bend: snap(drive + turn, relative.acceleration.length() + turn),
+        bend: snap_pressure(drive + turn, relative.drives + turn),
         drive,
         normal,
         point: at + radius_a * normal,
     }
-}
-
-/// How long to hold two spheres that touch, hardly move against each other, and are driven together.
-fn pressed_together(a: Mover<'_>, b: Mover<'_>, relative: &Relative, params: &SimParams) -> Option<f64> {
-    if relative.acceleration == DVec3::ZERO {
-        return None;
-    }
-    let gap = gap_of(relative, DVec3::ZERO, a.radius, b.radius);
-    let slack = touch_tolerance(a.path.segment.x, a.radius).max(touch_tolerance(b.path.segment.x, b.radius));
-    let hold = hold_time(params, -gap.bend);
-    let still = gap.rate <= 0.0 && gap.rate >= 1e-3 * gap.bend * hold;
-    (gap.distance <= slack && gap.bend < 0.0 && still).then_some(hold)
 }
 
 /// Whether two points that fly straight pass each other by more than `reach`, and are farther apart now.

@@ -1,0 +1,230 @@
+//! Impact groups: the contacts of bodies that touch, resolved together.
+//!
+//! Generalized reflections (Smith, Kaufman, Vouga, Tamstorf & Grinspun 2012, "Reflections on simultaneous
+//! impact"): in each round all contacts that close are taken at once. The nearest velocity that enters none
+//! of them, in the kinetic metric, has multipliers λ ≥ 0; the elastic outcome is the mirror image of the
+//! velocity in it, v' = v − 2 M⁻¹Nᵀλ. Rounds go on until nothing closes. That keeps energy, momentum and
+//! every symmetry of the group, and hands one ball on for one through a row of touching ones.
+//!
+//! With restitution e < 1 there is no unique answer. The rule here: contacts of a round that are connected
+//! through moving bodies share one e̅, v' = v − (1 + e̅) M⁻¹Nᵀλ, with e̅² the mean of e² weighted with the
+//! energy λ·c that each contact takes up (c the closing speed). Such a round loses ½(1 − e̅²) Σ λc ≥ 0, and a
+//! contact alone obeys Newton's law. Where every e is 0, and where closing speeds have become rounding, all
+//! contacts of the group are taken at once and plastically (Moreau).
+
+use super::constraint::{Link, enter_none};
+use super::contact::{Bodies, Pair, Partner, Surface, surface_of};
+use super::island::Island;
+use super::model::Model;
+use super::predict::{Gap, sphere_fixture_gap, sphere_sphere_gap};
+use super::restitution::of_pair;
+use super::state::State;
+
+/// Bodies that touch, at the time of an impact.
+pub(super) struct Group {
+    pub bodies: Island,
+    pub members: Vec<Member>,
+    /// s.
+    pub time: f64,
+    /// Energy taken, J.
+    pub loss: f64,
+}
+
+/// One contact of a group.
+pub(super) struct Member {
+    pub pair: Pair,
+    pub surface: Surface,
+    pub gap: Gap,
+    pub restitution: f64,
+    pub is_lasting: bool,
+    /// As a bound on velocities.
+    pub link: Link,
+    /// Closing speed before, m/s.
+    pub before: f64,
+    /// N·s.
+    pub impulse: f64,
+}
+
+/// The gap of two bodies, with the normal from the first to the partner.
+pub(super) fn gap_of(model: &Model, state: &State, pair: Pair, time: f64) -> Gap {
+    let mover = state.mover(model, pair.a);
+    match pair.partner {
+        Partner::Dynamic(other) => sphere_sphere_gap(mover, state.mover(model, other), time),
+        Partner::Static(fixture) => sphere_fixture_gap(mover, &model.fixtures[fixture as usize], time),
+    }
+}
+
+/// Product of the two Bounce values.
+pub(super) fn restitution_of(model: &Model, pair: Pair) -> f64 {
+    let other = match pair.partner {
+        Partner::Dynamic(other) => model.movers[other as usize].bounce,
+        Partner::Static(fixture) => model.fixtures[fixture as usize].bounce,
+    };
+    of_pair(model.movers[pair.a as usize].bounce, other)
+}
+
+impl Group {
+    /// The group of an impact: what touches its bodies, what touches those, and so on. `also` are impacts
+    /// due at the same instant; those that belong to the group are taken out of it.
+    pub fn gather(model: &Model, state: &State, time: f64, first: Pair, also: &mut Vec<Pair>) -> Self {
+        let mut pairs = vec![first];
+        let mut ids: Vec<u32> = [Some(first.a), first.other()].into_iter().flatten().collect();
+        let mut next = 0;
+        while let Some(body) = ids.get(next).copied() {
+            for pair in touching(model, state, body, time, also) {
+                if !pairs.contains(&pair) {
+                    pairs.push(pair);
+                }
+                for other in [Some(pair.a), pair.other()].into_iter().flatten() {
+                    if !ids.contains(&other) {
+                        ids.push(other);
+                    }
+                }
+            }
+            next += 1;
+        }
+        ids.sort_unstable();
+        pairs.sort_unstable();
+        let bodies = Island::at(model, state, ids, time);
+        let members = pairs.into_iter().map(|pair| member(model, state, &bodies, pair, time)).collect();
+        Self { bodies, members, time, loss: 0.0 }
+    }
+
+    /// The contacts as bounds on accelerations at the present velocities.
+    pub fn acceleration_links(&self, model: &Model) -> Vec<Link> {
+        let bodies = Bodies { ids: &self.bodies.ids, x: &self.bodies.x, v: &self.bodies.v };
+        self.members.iter().map(|member| bodies.link(model, member.pair, member.surface)).collect()
+    }
+
+    /// Closing speed of a contact now, m/s.
+    pub fn closing(&self, member: &Member) -> f64 {
+        member.link.entering(&self.bodies.v)
+    }
+
+    /// The rounding of a closing speed: below it nothing closes.
+    pub fn rounding(&self, member: &Member) -> f64 {
+        let speed = |body: usize| self.bodies.v[body].length();
+        16.0 * f64::EPSILON * (speed(member.link.a) + member.link.b.map_or(0.0, speed))
+    }
+
+    /// Rounds of reflections until nothing closes. The number of rounds is bounded: what is left then is
+    /// taken plastically.
+    pub fn resolve(&mut self) {
+        let largest = self.members.iter().map(|member| member.before).fold(0.0, f64::max);
+        for _ in 0..100 + 20 * self.members.len() {
+            let closing = self.still_closing();
+            let Some(worst) = closing.iter().map(|k| self.closing(&self.members[*k])).reduce(f64::max) else {
+                return;
+            };
+            let is_plastic = closing.iter().all(|k| self.members[*k].restitution == 0.0);
+            if is_plastic || worst <= SMALLEST_SHARE * largest {
+                break;
+            }
+            for connected in self.connected(&closing) {
+                self.reflect(&connected);
+            }
+        }
+        self.take_up();
+    }
+
+    pub fn closing_now(&self) -> impl Iterator<Item = &Member> {
+        self.members.iter().filter(|member| self.closing(member) > self.rounding(member))
+    }
+
+    fn still_closing(&self) -> Vec<usize> {
+        let closes = |member: &Member| self.closing(member) > self.rounding(member);
+        (0..self.members.len()).filter(|k| closes(&self.members[*k])).collect()
+    }
+
+    /// Splits contacts into those that share moving bodies, directly or through others.
+    fn connected(&self, contacts: &[usize]) -> Vec<Vec<usize>> {
+        let mut sets: Vec<Vec<usize>> = Vec::new();
+        for k in contacts {
+            let shares = |other: &usize| self.members[*k].link.shares_body(&self.members[*other].link);
+            let (mut joined, rest): (Vec<_>, Vec<_>) =
+                sets.into_iter().partition(|set| set.iter().any(shares));
+            joined.push(vec![*k]);
+            let mut set = joined.concat();
+            set.sort_unstable();
+            sets = rest;
+            sets.push(set);
+        }
+        sets.sort_unstable();
+        sets
+    }
+
+    /// Throws connected contacts back, all at once.
+    fn reflect(&mut self, contacts: &[usize]) {
+        let links: Vec<Link> = contacts.iter().map(|k| self.members[*k].link).collect();
+        let closing: Vec<f64> = links.iter().map(|link| link.entering(&self.bodies.v)).collect();
+        let multipliers = enter_none(&links, &self.bodies.inverse_mass, &mut self.bodies.v.clone());
+        let taken = || multipliers.iter().zip(&closing).map(|(multiplier, closing)| multiplier * closing);
+        let total: f64 = taken().sum();
+        let first = self.members[contacts[0]].restitution;
+        let restitution = if contacts.iter().all(|k| self.members[*k].restitution == first) {
+            first
+        } else {
+            let squares = contacts.iter().map(|k| self.members[*k].restitution.powi(2));
+            (squares.zip(taken()).map(|(square, taken)| square * taken).sum::<f64>() / total).sqrt()
+        };
+        for ((k, link), multiplier) in contacts.iter().zip(links).zip(multipliers) {
+            let impulse = (1.0 + restitution) * multiplier;
+            link.push(&mut self.bodies.v, &self.bodies.inverse_mass, impulse);
+            self.members[*k].impulse += impulse;
+        }
+        self.loss += 0.5 * (1.0 - restitution) * (1.0 + restitution) * total;
+    }
+
+    /// Takes all that closes, plastically.
+    fn take_up(&mut self) {
+        let links: Vec<Link> = self.members.iter().map(|member| member.link).collect();
+        let closing: Vec<f64> = links.iter().map(|link| link.entering(&self.bodies.v)).collect();
+        let multipliers = enter_none(&links, &self.bodies.inverse_mass, &mut self.bodies.v);
+        for ((member, multiplier), closing) in self.members.iter_mut().zip(multipliers).zip(closing) {
+            member.impulse += multiplier;
+            self.loss += 0.5 * multiplier * closing;
+        }
+    }
+}
+
+/// Closing speeds below this share of the largest at the start are taken plastically: a 1e-24th of the energy.
+const SMALLEST_SHARE: f64 = 1e-12;
+
+/// Contacts of one body: lasting ones, bodies that lie against it, and impacts of this instant.
+fn touching(model: &Model, state: &State, body: u32, time: f64, also: &mut Vec<Pair>) -> Vec<Pair> {
+    let lasting = state.contacts[body as usize].iter().map(|contact| Pair::new(body, contact.partner));
+    let against = state.touching[body as usize].iter().map(|other| Pair::new(body, Partner::Dynamic(*other)));
+    let near = |pair: &Pair| gap_of(model, state, *pair, time).distance <= model.params.contact_distance;
+    let mut pairs: Vec<Pair> = lasting.chain(against.filter(near)).collect();
+    also.retain(|pair| {
+        let is_its = pair.a == body || pair.other() == Some(body);
+        if is_its {
+            pairs.push(*pair);
+        }
+        !is_its
+    });
+    pairs
+}
+
+fn member(model: &Model, state: &State, bodies: &Island, pair: Pair, time: f64) -> Member {
+    let lasting = state.contacts[pair.a as usize].iter().find(|contact| contact.partner == pair.partner);
+    let surface = match (lasting, pair.partner) {
+        (Some(contact), _) => contact.surface,
+        (None, Partner::Dynamic(_)) => Surface::Round,
+        (None, Partner::Static(fixture)) => {
+            surface_of(&model.fixtures[fixture as usize], state.position(pair.a, time))
+        }
+    };
+    let at = Bodies { ids: &bodies.ids, x: &bodies.x, v: &bodies.v };
+    let link = Link { limit: 0.0, ..at.link(model, pair, surface) };
+    Member {
+        pair,
+        surface,
+        gap: gap_of(model, state, pair, time),
+        restitution: restitution_of(model, pair),
+        is_lasting: lasting.is_some(),
+        link,
+        before: link.entering(&bodies.v),
+        impulse: 0.0,
+    }
+}

@@ -1,0 +1,308 @@
+//! Islands: dynamic bodies connected by lasting contacts, which move together. A body that touches static
+//! bodies only is an island of its own.
+
+use glam::DVec3;
+
+use super::constraint::{Link, enter_none, stay_on};
+use super::contact::{Bodies, Contact, Pair, Partner, Surface, surface_of};
+use super::engine::{fault, record_contact};
+use super::model::Model;
+use super::motion::{
+    SegmentError, Step, applied_force, begin_segment, check, coupled_step, place, step_hint, subject_at,
+};
+use super::neighbours::predict_all;
+use super::predict::PRESSURE_ROUNDING;
+use super::segment::Segment;
+use super::state::State;
+use super::{EventKind, Fault};
+
+/// Where a body goes on from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct From {
+    pub body: u32,
+    pub x: DVec3,
+    pub v: DVec3,
+}
+
+/// Bodies of one island at one time, in the order of their indices.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Island {
+    pub ids: Vec<u32>,
+    pub x: Vec<DVec3>,
+    pub v: Vec<DVec3>,
+    pub contacts: Vec<(Pair, Surface)>,
+    pub inverse_mass: Vec<f64>,
+}
+
+/// All bodies connected to the given ones by lasting contacts, and these, in the order of their indices.
+pub(super) fn connected(state: &State, bodies: impl IntoIterator<Item = u32>) -> Vec<u32> {
+    let mut found: Vec<u32> = bodies.into_iter().collect();
+    let mut next = 0;
+    while let Some(body) = found.get(next).copied() {
+        for contact in &state.contacts[body as usize] {
+            if let Partner::Dynamic(other) = contact.partner
+                && !found.contains(&other)
+            {
+                found.push(other);
+            }
+        }
+        next += 1;
+    }
+    found.sort_unstable();
+    found.dedup();
+    found
+}
+
+/// Splits sorted bodies, closed under contact, into islands.
+pub(super) fn islands(state: &State, bodies: &[u32]) -> Vec<Vec<u32>> {
+    let mut all: Vec<Vec<u32>> = Vec::new();
+    for body in bodies {
+        if !all.iter().any(|island| island.binary_search(body).is_ok()) {
+            all.push(connected(state, [*body]));
+        }
+    }
+    all
+}
+
+impl Island {
+    /// The island of some bodies, each where `from` says.
+    pub fn new(model: &Model, state: &State, ids: Vec<u32>, from: impl Fn(u32) -> (DVec3, DVec3)) -> Self {
+        let (x, v): (Vec<_>, Vec<_>) = ids.iter().map(|body| from(*body)).unzip();
+        let inverse_mass = ids.iter().map(|body| 1.0 / model.movers[*body as usize].mass).collect();
+        let contacts = contacts_of(state, &ids);
+        Self { ids, x, v, contacts, inverse_mass }
+    }
+
+    /// The island of some bodies at a time on their present segments.
+    pub fn at(model: &Model, state: &State, ids: Vec<u32>, time: f64) -> Self {
+        Self::new(model, state, ids, |body| (state.position(body, time), state.velocity(body, time)))
+    }
+
+    pub fn links(&self, model: &Model) -> Vec<Link> {
+        links_of(model, &self.ids, &self.contacts, &self.x, &self.v)
+    }
+
+    /// Accelerations under the applied forces alone.
+    pub fn free(&self, model: &Model, time: f64) -> Vec<DVec3> {
+        free(model, &self.ids, time, &self.x, &self.v)
+    }
+
+    /// Which of the contacts are still pressed, in their order.
+    fn held(&self, model: &Model, time: f64) -> Vec<bool> {
+        let links = self.links(model);
+        let mut motion = self.free(model, time);
+        let scale =
+            motion.iter().map(|a| a.length()).chain(links.iter().map(|l| l.limit)).fold(0.0, f64::max);
+        enter_none(&links, &self.inverse_mass, &mut motion);
+        let parts = |link: &Link| link.limit - link.entering(&motion) > PRESSURE_ROUNDING * scale;
+        links.iter().map(|link| scale > 0.0 && !parts(link)).collect()
+    }
+}
+
+/// The largest of some accelerations and of what keeps the bodies on curved surfaces.
+fn largest(accelerations: &[DVec3], links: &[Link]) -> f64 {
+    accelerations.iter().map(|a| a.length()).chain(links.iter().map(|link| link.limit)).fold(0.0, f64::max)
+}
+
+fn contacts_of(state: &State, ids: &[u32]) -> Vec<(Pair, Surface)> {
+    let mut contacts = Vec::new();
+    for body in ids {
+        for contact in &state.contacts[*body as usize] {
+            let pair = Pair::new(*body, contact.partner);
+            if pair.a == *body {
+                contacts.push((pair, contact.surface));
+            }
+        }
+    }
+    contacts
+}
+
+fn links_of(model: &Model, ids: &[u32], contacts: &[(Pair, Surface)], x: &[DVec3], v: &[DVec3]) -> Vec<Link> {
+    let bodies = Bodies { ids, x, v };
+    contacts.iter().map(|(pair, surface)| bodies.link(model, *pair, *surface)).collect()
+}
+
+pub(super) fn free(model: &Model, ids: &[u32], time: f64, x: &[DVec3], v: &[DVec3]) -> Vec<DVec3> {
+    let bodies = ids.iter().zip(x.iter().zip(v));
+    bodies
+        .map(|(body, (x, v))| {
+            let subject = subject_at(model, *body, time, *x, *v);
+            applied_force(model, &subject) / subject.mass
+        })
+        .collect()
+}
+
+/// Drops the contacts of an island that nothing presses together any more, and brings the others up to date
+/// (a body rolls from an edge onto the face).
+pub(super) fn drop_unpressed(model: &Model, state: &mut State, island: &Island, time: f64) {
+    for (held, (pair, _)) in island.held(model, time).into_iter().zip(&island.contacts) {
+        if !held {
+            part(model, state, *pair, time);
+        }
+    }
+    for (body, x) in island.ids.iter().zip(&island.x) {
+        for contact in &mut state.contacts[*body as usize] {
+            if let (Partner::Static(fixture), Surface::Round) = (contact.partner, contact.surface) {
+                contact.surface = surface_of(&model.fixtures[fixture as usize], *x);
+            }
+        }
+    }
+}
+
+/// Ends a lasting contact, and says so.
+pub(super) fn part(model: &Model, state: &mut State, pair: Pair, time: f64) {
+    let mut listed = false;
+    let mut forget = |contacts: &mut Vec<Contact>, partner| {
+        contacts.retain(|contact| {
+            listed |= contact.partner == partner;
+            contact.partner != partner
+        });
+    };
+    forget(&mut state.contacts[pair.a as usize], pair.partner);
+    if let Some(other) = pair.other() {
+        forget(&mut state.contacts[other as usize], Partner::Dynamic(pair.a));
+    }
+    if listed {
+        record_contact(model, state, time, EventKind::LiftOff, pair);
+    }
+}
+
+/// Lets an island go on: books the old segments of its bodies and begins new ones. Bodies that rest or
+/// slide on flat faces, without moving against each other, go on along parabolas. Others, and all in fields,
+/// are integrated together.
+pub(super) fn begin_island(
+    model: &Model,
+    state: &mut State,
+    island: &mut Island,
+    time: f64,
+) -> Result<(), (u32, SegmentError)> {
+    let at_rest: Vec<Link> =
+        island.links(model).into_iter().map(|link| Link { limit: 0.0, ..link }).collect();
+    // Takes the rounding out of velocities: contacts that the bodies leave or enter have been dropped.
+    stay_on(&at_rest, &island.inverse_mass, &mut island.v);
+    let links = island.links(model);
+    let mut accelerations = island.free(model, time);
+    enter_none(&links, &island.inverse_mass, &mut accelerations);
+    let steps: Vec<Step> = if is_steady(model, island, &links, &accelerations) {
+        let rows = island.x.iter().zip(&island.v).zip(&accelerations);
+        rows.map(|((x, v), a)| (Segment::ballistic(time, *x, *v, *a), None)).collect()
+    } else {
+        let hint = step_hint(state, island.ids[0], time);
+        let Island { ids, x, v, contacts, inverse_mass } = island;
+        let step = coupled_step(
+            (time, x, v),
+            hint,
+            model.params.field_tolerance,
+            &mut state.counters.force_evaluations,
+            |time, x, v| {
+                let mut motion = free(model, ids, time, x, v);
+                let links = links_of(model, ids, contacts, x, v);
+                let size = largest(&motion, &links);
+                stay_on(&links, inverse_mass, &mut motion);
+                (motion, size)
+            },
+        );
+        step.map_err(|error| (ids[0], error))?
+    };
+    for (body, (segment, _)) in island.ids.iter().zip(&steps) {
+        check(model, segment).map_err(|error| (*body, error))?;
+    }
+    for (body, (segment, column)) in island.ids.iter().zip(steps) {
+        place(model, state, *body, Segment { constrained: true, ..segment }, column);
+    }
+    Ok(())
+}
+
+/// Whether nothing about the contacts and forces of an island will change along parabolas.
+fn is_steady(model: &Model, island: &Island, links: &[Link], accelerations: &[DVec3]) -> bool {
+    let still = |link: &Link, (_, surface): &(Pair, Surface)| match link.b {
+        None => matches!(surface, Surface::Flat(_)),
+        Some(b) => island.v[link.a] == island.v[b] && accelerations[link.a] == accelerations[b],
+    };
+    model.is_ballistic() && links.iter().zip(&island.contacts).all(|(link, contact)| still(link, contact))
+}
+
+/// Parts of an integrated segment at whose ends the pressure is looked at. A step of the integrator is short
+/// against the time in which a smooth force turns round twice.
+const PRESSURE_SAMPLES: u32 = 8;
+
+/// First time on their present segments at which some contacts of an island are no longer pressed, and
+/// which. On parabolas that never happens.
+pub(super) fn first_parting(model: &Model, state: &State, ids: &[u32]) -> Option<(f64, Vec<Pair>)> {
+    let segment = &state.segments[*ids.first()? as usize];
+    if segment.step == 0.0 {
+        return None;
+    }
+    let lost = |time: f64| -> Vec<Pair> {
+        let island = Island::at(model, state, ids.to_vec(), time);
+        let held = island.held(model, time);
+        held.into_iter().zip(island.contacts).filter(|(held, _)| !held).map(|(_, (pair, _))| pair).collect()
+    };
+    let mut low = segment.start;
+    for sample in 1..=PRESSURE_SAMPLES {
+        let high = segment.start + segment.step * f64::from(sample) / f64::from(PRESSURE_SAMPLES);
+        if !lost(high).is_empty() {
+            let time = bisect(low, high, |time| lost(time).is_empty());
+            return Some((time, lost(time)));
+        }
+        low = high;
+    }
+    None
+}
+
+/// Lets bodies go on, with all that they are in contact with: contacts that no longer hold are dropped,
+/// segments begin, and everything about them is predicted. All segments must stand before anything is
+/// predicted between them.
+pub(super) fn restart(model: &Model, state: &mut State, time: f64, starts: &[From]) -> Result<(), Fault> {
+    if starts.iter().all(|start| state.contacts[start.body as usize].is_empty()) {
+        for start in starts {
+            begin_free(model, state, time, start)?;
+        }
+        starts.iter().for_each(|start| predict_all(model, state, start.body, time));
+    } else {
+        let bodies = begin_islands(model, state, time, starts)?;
+        bodies.into_iter().for_each(|body| predict_all(model, state, body, time));
+    }
+    Ok(())
+}
+
+/// Begins segments for bodies and all that they are in contact with; gives them all.
+fn begin_islands(model: &Model, state: &mut State, time: f64, starts: &[From]) -> Result<Vec<u32>, Fault> {
+    let bodies = connected(state, starts.iter().map(|start| start.body));
+    let place_of = |state: &State, body: u32| match starts.iter().find(|start| start.body == body) {
+        Some(start) => (start.x, start.v),
+        None => (state.position(body, time), state.velocity(body, time)),
+    };
+    let from: Vec<(DVec3, DVec3)> = bodies.iter().map(|body| place_of(state, *body)).collect();
+    let of = |body: u32| bodies.binary_search(&body).map_or((DVec3::ZERO, DVec3::ZERO), |k| from[k]);
+    for ids in islands(state, &bodies) {
+        drop_unpressed(model, state, &Island::new(model, state, ids, of), time);
+    }
+    // What is left may have fallen apart.
+    for ids in islands(state, &bodies) {
+        let mut island = Island::new(model, state, ids, of);
+        if island.contacts.is_empty() {
+            begin_free(model, state, time, &From { body: island.ids[0], x: island.x[0], v: island.v[0] })?;
+        } else {
+            begin_island(model, state, &mut island, time)
+                .map_err(|(body, error)| fault(model, body, time, error))?;
+        }
+    }
+    Ok(bodies)
+}
+
+fn begin_free(model: &Model, state: &mut State, time: f64, start: &From) -> Result<(), Fault> {
+    begin_segment(model, state, start.body, time, start.x, start.v)
+        .map_err(|error| fault(model, start.body, time, error))
+}
+
+/// The earliest representable time in low..=high at which `holds` no longer holds.
+fn bisect(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
+    loop {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            return high;
+        }
+        if holds(middle) { low = middle } else { high = middle }
+    }
+}
