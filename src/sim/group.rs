@@ -107,14 +107,16 @@ impl Group {
         16.0 * f64::EPSILON * (speed(member.link.a) + member.link.b.map_or(0.0, speed))
     }
 
-    /// Rounds of reflections until nothing closes. The number of rounds is bounded: what is left then is
-    /// taken plastically.
-    pub fn resolve(&mut self) {
+    /// Rounds of reflections until nothing closes; whether they went on so long that it is an inelastic
+    /// collapse of several pairs of moving bodies. What is left when there would be no end is taken
+    /// plastically.
+    pub fn resolve(&mut self) -> bool {
         let largest = self.members.iter().map(|member| member.before).fold(0.0, f64::max);
-        for _ in 0..100 + 20 * self.members.len() {
+        let mut rounds = 0;
+        while rounds < 100 + 20 * self.members.len() {
             let closing = self.still_closing();
             let Some(worst) = closing.iter().map(|k| self.closing(&self.members[*k])).reduce(f64::max) else {
-                return;
+                return self.has_collapsed(rounds);
             };
             let is_plastic = closing.iter().all(|k| self.members[*k].restitution == 0.0);
             if is_plastic || worst <= SMALLEST_SHARE * largest {
@@ -123,8 +125,17 @@ impl Group {
             for connected in self.connected(&closing) {
                 self.reflect(&connected);
             }
+            rounds += 1;
         }
         self.take_up();
+        self.has_collapsed(rounds)
+    }
+
+    /// Whether pairs of moving bodies that lose energy met more often than a blow takes to run through the
+    /// group and back.
+    fn has_collapsed(&self, rounds: usize) -> bool {
+        let lossy = |member: &&Member| member.pair.other().is_some() && member.restitution < 1.0;
+        rounds > 4 + 2 * self.members.len() && self.members.iter().filter(lossy).count() > 1
     }
 
     pub fn closing_now(&self) -> impl Iterator<Item = &Member> {

@@ -39,8 +39,9 @@ pub(super) fn resolve(
     if cascading != Cascading::No {
         group.members.iter_mut().for_each(|member| member.restitution = 0.0);
     }
-    group.resolve();
-    let kind = if cascading == Cascading::Begins { EventKind::Collapse } else { EventKind::Impact };
+    let has_collapsed = group.resolve();
+    let kind =
+        if cascading == Cascading::Begins || has_collapsed { EventKind::Collapse } else { EventKind::Impact };
     list(model, state, time, &group, kind);
     finish(model, state, time, group, pair)
 }

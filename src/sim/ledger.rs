@@ -27,8 +27,9 @@ pub enum EventKind {
     LiftOff,
     /// A body passed a point attractor within the core radius.
     SingularPass,
-    /// An impact that follows so many others so closely that there would be no end to them: from here on the
-    /// bodies do not bounce off each other (restitution 0) until it has been quiet for a while.
+    /// An impact in an inelastic collapse: one of more than anyone could list, at one instant or closely after
+    /// each other. What is left of them is taken plastically, and the bodies do not bounce off each other until
+    /// it has been quiet for a while.
     Collapse,
     /// The scene was edited while it ran.
     Edit,
@@ -66,9 +67,7 @@ impl EventKind {
             Self::Slide => "a body in contact began to move along the surface",
             Self::LiftOff => "a body in contact left the surface",
             Self::SingularPass => "a body passed a point attractor within the core radius",
-            Self::Collapse => {
-                "impacts follow each other without end: from here on these bodies do not bounce until it is quiet"
-            }
+            Self::Collapse => "inelastic collapse: impacts without end, taken plastically until it is quiet",
             Self::Edit => "the scene was edited while it ran",
         }
     }

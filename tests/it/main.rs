@@ -76,8 +76,6 @@ mod scene_read;
 // Many bodies: what an edit costs, and whether it is right.
 mod scene_scale;
 // Chains of impacts with known outcomes: head-on pairs, Newton's cradle, counting π.
-mod scratch;
-// x
 mod sim_chain;
 // Lasting contact: inclines, corners, edges, air, lifting off.
 mod sim_contact;
