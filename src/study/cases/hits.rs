@@ -83,7 +83,7 @@ fn lossy_bounce(trial: &Trial) -> Result<Vec<f64>, Stop> {
                 expected += flight;
             }
             Some(event) if event.kind == EventKind::Rest => {
-                rest_off = (event.time - 9.0 * first_fall()).abs()
+                rest_off = (event.time - 9.0 * first_fall()).abs();
             }
             _ => {}
         }

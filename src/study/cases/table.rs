@@ -76,7 +76,7 @@ fn shown(value: f64) -> String {
         "none".into()
     } else if value == 0.0 {
         "0".into()
-    } else if value >= 10.0 && value < 1e7 && value.fract() == 0.0 {
+    } else if (10.0..1e7).contains(&value) && value.fract() == 0.0 {
         format!("{value}")
     } else if (0.1..1e4).contains(&value.abs()) {
         format!("{value:.2}")
