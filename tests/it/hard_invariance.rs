@@ -21,12 +21,8 @@ const SPANS: &[(&str, f64)] = &[
     ("orbit", 12.0),
     ("rest", 10.0),
     ("cradle", 6.0),
-    ("overlap-resting", 0.02),
-    ("pyramid-4", 0.3),
-    ("pyramid-4-bouncy", 0.4),
+    ("pyramid-4-bouncy", 2.0),
     ("pyramid-6", 0.15),
-    ("stack-2", 0.3),
-    ("stack-3", 0.2),
 ];
 
 fn span(id: &str) -> f64 {

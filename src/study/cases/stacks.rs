@@ -53,6 +53,7 @@ pub(super) const PYRAMID_6: Case = Case {
     id: "pyramid-6",
     title: "Flat pyramid of six between walls, e = 0",
     source: file!("hard/pyramid-6"),
+    budget: 30_000,
     run: |trial| stands(trial, pyramid_of_6),
     ..STACK_2
 };
