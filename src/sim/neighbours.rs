@@ -9,7 +9,7 @@ use super::queue::Kind;
 use super::roots::first_root;
 use super::segment::Path;
 use super::state::{Scratch, State};
-use super::tiles::TileRange;
+use super::tiles::{TileRange, for_each_brick};
 
 /// How much larger than the body its registered box is, m: more than root finding can be off.
 fn margin(model: &Model, radius: f64, position: DVec3) -> f64 {
@@ -175,7 +175,7 @@ fn collect(
     let epoch = scratch.epoch;
     scratch.seen_moving[body as usize] = epoch;
     let Scratch { seen_moving, seen_fixed, found_moving, found_fixed, .. } = scratch;
-    state.moving.visit(&model.grid, range, known, |other| {
+    let mut see_moving = |other: u32| {
         // With who is in the old tiles too, the next impact is predicted already.
         if known.is_some_and(|known| known.overlaps(&state.registered[other as usize])) {
             return;
@@ -183,11 +183,15 @@ fn collect(
         if std::mem::replace(&mut seen_moving[other as usize], epoch) != epoch {
             found_moving.push(other);
         }
-    });
-    model.static_tiles.visit(&model.grid, range, known, |other| {
+    };
+    let mut see_fixed = |other: u32| {
         if std::mem::replace(&mut seen_fixed[other as usize], epoch) != epoch {
             found_fixed.push(other);
         }
+    };
+    for_each_brick(&model.grid, range, known, |brick, tiles| {
+        state.moving.visit_brick(brick, tiles, &mut see_moving);
+        model.static_tiles.visit_brick(brick, tiles, &mut see_fixed);
     });
     if known.is_none() {
         scratch.found_fixed.extend(model.static_tiles.large());

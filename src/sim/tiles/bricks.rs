@@ -38,7 +38,7 @@ fn counts(grid: &Grid) -> [u32; 3] {
 
 /// Goes through the bricks with tiles that are in `range` but not in `except`: their keys, and those tiles
 /// as a mask.
-pub(super) fn for_each_brick(
+pub(in crate::sim) fn for_each_brick(
     grid: &Grid,
     range: TileRange,
     except: Option<TileRange>,

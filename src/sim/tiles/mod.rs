@@ -5,6 +5,7 @@ mod grid;
 mod moving;
 mod statics;
 
+pub(super) use bricks::for_each_brick;
 pub(super) use grid::{Grid, TileRange};
 pub(super) use moving::MovingTiles;
 pub(super) use statics::StaticTiles;

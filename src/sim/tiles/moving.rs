@@ -61,13 +61,16 @@ impl MovingTiles {
         except: Option<TileRange>,
         mut visit: impl FnMut(u32),
     ) {
-        for_each_brick(grid, range, except, |key, mask| {
-            let Some(index) = self.by_key.get(&key) else { return };
-            let brick = &self.bricks[*index as usize];
-            for slot in slots(mask & brick.occupied) {
-                self.for_each_in_chain(brick.chains[slot], &mut visit);
-            }
-        });
+        for_each_brick(grid, range, except, |key, mask| self.visit_brick(key, mask, &mut visit));
+    }
+
+    /// The same for the tiles of one brick.
+    pub fn visit_brick(&self, key: u64, mask: u64, visit: &mut impl FnMut(u32)) {
+        let Some(index) = self.by_key.get(&key) else { return };
+        let brick = &self.bricks[*index as usize];
+        for slot in slots(mask & brick.occupied) {
+            self.for_each_in_chain(brick.chains[slot], visit);
+        }
     }
 
     /// The bodies in one tile.

@@ -77,15 +77,18 @@ impl StaticTiles {
         except: Option<TileRange>,
         mut visit: impl FnMut(u32),
     ) {
-        for_each_brick(grid, range, except, |key, mask| {
-            let Some(brick) = self.bricks.get(&key) else { return };
-            for slot in slots(mask & brick.occupied) {
-                let before = brick.occupied & ((1 << slot) - 1);
-                let list = (brick.first + before.count_ones()) as usize;
-                let (from, to) = (self.starts[list] as usize, self.starts[list + 1] as usize);
-                self.items[from..to].iter().for_each(|body| visit(*body));
-            }
-        });
+        for_each_brick(grid, range, except, |key, mask| self.visit_brick(key, mask, &mut visit));
+    }
+
+    /// The same for the tiles of one brick.
+    pub fn visit_brick(&self, key: u64, mask: u64, visit: &mut impl FnMut(u32)) {
+        let Some(brick) = self.bricks.get(&key) else { return };
+        for slot in slots(mask & brick.occupied) {
+            let before = brick.occupied & ((1 << slot) - 1);
+            let list = (brick.first + before.count_ones()) as usize;
+            let (from, to) = (self.starts[list] as usize, self.starts[list + 1] as usize);
+            self.items[from..to].iter().for_each(|body| visit(*body));
+        }
     }
 
     /// The bodies in one tile, without large ones.
