@@ -17,7 +17,7 @@ pub struct SimParams {
 impl Default for SimParams {
     fn default() -> Self {
         Self {
-            field_tolerance: 1e-9,
+            field_tolerance: 1e-8,
             rest_speed: 1e-5,
             rest_time: 1e-2,
             contact_duration: 4e-5,
@@ -53,7 +53,7 @@ pub const PARAMS: &[ParamInfo] = &[
         unit: "",
         range: (1e-13, 1e-3),
         help: "Size of the last term of the integrator's acceleration series over the acceleration \
-               itself, in one step of a body in a point gravity, drag or custom field. At 1e-9 the \
+               itself, in one step of a body in a point gravity, drag or custom field. At 1e-8 the \
                series is exact to rounding inside the step; larger is quicker and less exact.",
         get: |p| p.field_tolerance,
         set: |p, v| p.field_tolerance = v,

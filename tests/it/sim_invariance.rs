@@ -218,4 +218,4 @@ fn bits_are_those_of_every_platform() {
 }
 
 /// Events and hash of the thesis scene at 10 s. Re-record only with a reason in the commit.
-const GOLDEN: (usize, u64) = (30, 14507583848549241907);
+const GOLDEN: (usize, u64) = (30, 4918170001863217173);
