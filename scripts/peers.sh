@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Measures PolyScene beside rapier3d on the same scenes: time against error, in one run. It downloads and builds
 # rapier3d. Prints a table and whether the claims hold, and writes every point to benches/peers/peers.csv.
-# Usage: scripts/peers.sh [--quick] [--csv FILE]
+# Usage: scripts/peers.sh [--quick] [--case TEXT] [--csv FILE]
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

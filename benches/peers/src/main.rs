@@ -1,7 +1,7 @@
 //! PolyScene beside rapier3d on the same scenes: time against error, in one run.
 //!
 //! Prints a table and the claims it checks, and writes every point to a CSV file.
-//! Usage: `cargo run --release [--quick] [--csv FILE]`.
+//! Usage: `cargo run --release [--quick] [--case TEXT] [--csv FILE]`.
 
 #![allow(clippy::print_stdout, reason = "a program that prints figures")]
 
@@ -21,17 +21,19 @@ use std::path::PathBuf;
 fn main() -> Result<(), Box<dyn Error>> {
     let mut csv = PathBuf::from("peers.csv");
     let mut quick = false;
+    let mut wanted = String::new();
     let mut arguments = std::env::args().skip(1);
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
             "--quick" => quick = true,
             "--csv" => csv = arguments.next().ok_or("--csv needs a file name")?.into(),
-            other => return Err(format!("unknown argument {other}; known are --quick and --csv FILE").into()),
+            "--case" => wanted = arguments.next().ok_or("--case needs a part of a name")?,
+            other => return Err(format!("unknown argument {other}; see benches/peers/README.md").into()),
         }
     }
     let mut points = Vec::new();
     report::head();
-    for case in cases::all()? {
+    for case in cases::all()?.into_iter().filter(|case| case.name.contains(&wanted)) {
         let of_case = run::measure(&case, quick);
         report::table(&case, &of_case);
         points.extend(of_case);
