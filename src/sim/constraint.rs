@@ -42,7 +42,7 @@ impl Link {
     }
 
     /// Change of what enters here by a unit impulse at another link.
-    fn response(&self, other: &Self, inverse_mass: &[f64]) -> f64 {
+    pub fn response(&self, other: &Self, inverse_mass: &[f64]) -> f64 {
         let along = self.towards.dot(other.towards);
         let mut sum = 0.0;
         for (mine, my_sign) in [(Some(self.a), 1.0), (self.b, -1.0)] {

@@ -107,8 +107,9 @@ fn list(model: &Model, state: &mut State, time: f64, group: &Group, kind: EventK
     let row = |member: &Member| {
         let event = Event {
             impulse: member.impulse,
-            vn_before: -member.before,
-            vn_after: -group.closing(member),
+            // not −0
+            vn_before: 0.0 - member.before,
+            vn_after: 0.0 - group.closing(member),
             group: state.group,
             ..contact_event(time, kind, member.pair, &member.gap)
         };

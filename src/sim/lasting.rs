@@ -127,39 +127,42 @@ fn drop_unsettled(model: &Model, group: &Group, candidates: &mut Vec<Candidate>)
     let free = group.bodies.free(model, group.time);
     let links = group.acceleration_links(model);
     loop {
-        let ends: Vec<Option<f64>> = candidates
-            .iter()
-            .map(|candidate| {
-                if candidate.is_undisturbed {
+        let held: Vec<Link> = candidates.iter().map(|candidate| links[candidate.member]).collect();
+        let loads = enter_none(&held, &group.bodies.inverse_mass, &mut free.clone());
+        let ends: Vec<Option<f64>> = (0..held.len())
+            .map(|k| {
+                if candidates[k].is_undisturbed {
                     return Some(0.0);
                 }
-                let others = candidates.iter().filter(|other| other.member != candidate.member);
-                let held: Vec<Link> = others.map(|other| links[other.member]).collect();
-                let pressing = pressing(group, &links[candidate.member], &held, &free)?;
-                remaining_flights(model, group, candidate.member, pressing)
+                let pressing = pressing(group, &held, k, loads[k], &free)?;
+                remaining_flights(model, group, candidates[k].member, pressing)
             })
             .collect();
-        let before = candidates.len();
         let mut end = ends.iter();
         candidates.retain_mut(|candidate| {
             let Some(flights) = end.next().copied().flatten() else { return false };
             candidate.flights = flights;
             true
         });
-        if candidates.len() == before {
+        if candidates.len() == ends.len() {
             return;
         }
     }
 }
 
-/// Acceleration that presses two bodies together while the contacts `held` hold, m/s²; `None` if nothing
-/// does.
-fn pressing(group: &Group, link: &Link, held: &[Link], free: &[DVec3]) -> Option<f64> {
+/// Acceleration that presses two bodies together while the other contacts hold, m/s²; `None` if nothing
+/// does. Where the others alone would hold them (a ball in a heap), what the contact carries counts.
+fn pressing(group: &Group, held: &[Link], index: usize, load: f64, free: &[DVec3]) -> Option<f64> {
+    let link = &held[index];
+    let others: Vec<Link> =
+        (0..held.len()).filter(|other| *other != index).map(|other| held[other]).collect();
     let mut driven = free.to_vec();
-    enter_none(held, &group.bodies.inverse_mass, &mut driven);
-    let size = link.b.map_or(0.0, |b| free[b].length()).max(free[link.a].length()) + link.limit;
-    let pressing = link.entering(&driven) - link.limit;
-    (pressing > PRESSURE_ROUNDING * size).then_some(pressing)
+    enter_none(&others, &group.bodies.inverse_mass, &mut driven);
+    let rounding = PRESSURE_ROUNDING
+        * (link.b.map_or(0.0, |b| free[b].length()).max(free[link.a].length()) + link.limit);
+    let alone = link.entering(&driven) - link.limit;
+    let shared = load * link.response(link, &group.bodies.inverse_mass);
+    [alone, shared].into_iter().find(|pressing| *pressing > rounding)
 }
 
 /// Sum of the flights that are left under an acceleration that presses the bodies together, s; `None` if it
