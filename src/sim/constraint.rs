@@ -288,7 +288,7 @@ mod tests {
         for case in 0..2000 {
             let bodies = 1 + case % 5;
             let inverse_mass: Vec<f64> = (0..bodies).map(|_| libm::exp(3.0 * random())).collect();
-            let links: Vec<Link> = (0..1 + case % 9)
+            let links: Vec<Link> = (0..=case % 9)
                 .map(|k| {
                     let (a, b) = (k % bodies, (k * 7 + case) % bodies);
                     let towards = DVec3::new(random(), random(), random()).normalize();

@@ -175,8 +175,8 @@ impl Group {
         let restitution = if contacts.iter().all(|k| self.members[*k].restitution == first) {
             first
         } else {
-            let squares = contacts.iter().map(|k| self.members[*k].restitution.powi(2));
-            (squares.zip(taken()).map(|(square, taken)| square * taken).sum::<f64>() / total).sqrt()
+            let restitutions = contacts.iter().map(|k| self.members[*k].restitution);
+            (restitutions.zip(taken()).map(|(e, taken)| e * e * taken).sum::<f64>() / total).sqrt()
         };
         for ((k, link), multiplier) in contacts.iter().zip(links).zip(multipliers) {
             let impulse = (1.0 + restitution) * multiplier;
