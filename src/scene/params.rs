@@ -65,7 +65,8 @@ pub const PARAMS: &[ParamInfo] = &[
         range: (0.0, 1.0),
         help: "A pressed, inelastic body whose normal speed after an impact is below this may come to \
                rest at the limit time of its remaining bounces. The bounce left out is at most v²/2g \
-               high: 5e-12 m at the default on Earth. At 0 such a body bounces for ever.",
+               high: 5e-12 m at the default on Earth. At 0 such a body bounces until that \
+               is below the rounding of its position.",
         get: |p| p.rest_speed,
         set: |p, v| p.rest_speed = v,
     },
@@ -86,7 +87,8 @@ pub const PARAMS: &[ParamInfo] = &[
         unit: "s",
         range: (1e-9, 1.0),
         help: "Impacts of one body that follow each other within this time count as one cascade; see \
-               Collapse count. Smaller follows a collapse further and takes longer.",
+               Collapse count. Smaller follows a collapse further and takes longer. Impacts \
+               within a thousandth of it are of one instant.",
         get: |p| p.contact_duration,
         set: |p, v| p.contact_duration = v,
     },

@@ -65,7 +65,7 @@ pub(super) fn enter_none(links: &[Link], inverse_mass: &[f64], motion: &mut [DVe
     }
     let largest =
         links.iter().map(|link| link.limit).chain(excess.iter().map(|e| e.abs())).fold(0.0, f64::max);
-    let multipliers = unilateral(&Delassus::new(links, inverse_mass), &excess, TOLERANCE * largest);
+    let multipliers = unilateral(&Delassus::new(links, inverse_mass), &excess, largest);
     apply(links, inverse_mass, motion, &multipliers);
     multipliers
 }
@@ -98,21 +98,36 @@ fn apply(links: &[Link], inverse_mass: &[f64], motion: &mut [DVec3], multipliers
             touched[body] = true;
         }
     }
-    for ((w, size), touched) in motion.iter_mut().zip(sizes).zip(touched) {
+    // A light body between heavy ones is the small difference of large pushes, and so is what it leaves to them.
+    let size = sizes
+        .iter()
+        .zip(&touched)
+        .filter(|(_, touched)| **touched)
+        .map(|(size, _)| *size)
+        .fold(0.0, f64::max);
+    for (w, touched) in motion.iter_mut().zip(touched) {
         if touched && w.length() <= ROUNDING * size {
             *w = DVec3::ZERO;
         }
     }
 }
 
+/// The largest part that a multiplier has in what enters anywhere: what enters is known to a rounding of it.
+pub(super) fn largest_push(links: &[Link], inverse_mass: &[f64], multipliers: &[f64]) -> f64 {
+    let push = |(link, multiplier): (&Link, &f64)| multiplier * link.response(link, inverse_mass);
+    links.iter().zip(multipliers).map(push).fold(0.0, f64::max)
+}
+
 /// λ ≥ 0 with excess − Aλ ≤ tolerance, and = 0 where λ > 0.
-fn unilateral(matrix: &Delassus, excess: &[f64], tolerance: f64) -> Vec<f64> {
+fn unilateral(matrix: &Delassus, excess: &[f64], largest: f64) -> Vec<f64> {
     let size = excess.len();
     let mut multipliers = vec![0.0; size];
     let mut active: Vec<usize> = Vec::new();
     // Each pass makes the motion more nearly allowed; rounding alone could make it come back.
     for _ in 0..4 * size + 8 {
         let left = |k: usize, multipliers: &[f64]| excess[k] - matrix.row(k, multipliers);
+        let pushes = (0..size).map(|k| multipliers[k] * matrix.at(k, k));
+        let tolerance = TOLERANCE * pushes.fold(largest, f64::max);
         let worst = (0..size)
             .filter(|k| !active.contains(k))
             .map(|k| (k, left(k, &multipliers)))

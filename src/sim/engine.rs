@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::account::present;
 use super::contact::{Pair, Partner};
-use super::group::gap_of;
+use super::group::{SAME_INSTANT, gap_of};
 use super::impact::{self, contact_event};
 use super::island::{From, part, restart};
 use super::model::Model;
@@ -111,9 +111,6 @@ fn simultaneous(model: &Model, state: &mut State, pair: Pair, time: f64, gap: &G
     }
     [also, rest]
 }
-
-/// Impacts farther apart than this part of the contact duration are not of one instant, however slow.
-const SAME_INSTANT: f64 = 1e-3;
 
 /// The larger radius of a pair, m.
 fn reach(model: &Model, pair: Pair) -> f64 {

@@ -12,10 +12,13 @@
 //! contact alone obeys Newton's law. Where every e is 0, and where closing speeds have become rounding, all
 //! contacts of the group are taken at once and plastically (Moreau).
 
+use glam::DVec3;
+
 use super::constraint::{Link, enter_none};
 use super::contact::{Bodies, Pair, Partner, Surface, surface_of};
 use super::island::Island;
 use super::model::Model;
+use super::neighbours::near;
 use super::predict::{Gap, sphere_fixture_gap, sphere_sphere_gap};
 use super::restitution::of_pair;
 use super::state::State;
@@ -26,8 +29,8 @@ pub(super) struct Group {
     pub members: Vec<Member>,
     /// s.
     pub time: f64,
-    /// Energy taken, J.
-    pub loss: f64,
+    /// Momentum taken by what is fixed where bodies seize, kg·m/s.
+    pub seized: DVec3,
 }
 
 /// One contact of a group.
@@ -66,12 +69,18 @@ pub(super) fn restitution_of(model: &Model, pair: Pair) -> f64 {
 impl Group {
     /// The group of an impact: what touches its bodies, what touches those, and so on. `also` are impacts
     /// due at the same instant; those that belong to the group are taken out of it.
+    ///
+    /// Who lies against whom is known, and so is what closes now. That a body about to be thrown back also
+    /// touches something behind it shows when it hits that in the same instant: then all that is near is
+    /// looked at.
     pub fn gather(model: &Model, state: &State, time: f64, first: Pair, also: &mut Vec<Pair>) -> Self {
         let mut pairs = vec![first];
         let mut ids: Vec<u32> = [Some(first.a), first.other()].into_iter().flatten().collect();
+        let again = ids.iter().any(|body| hit_just_now(model, state, *body, time));
         let mut next = 0;
         while let Some(body) = ids.get(next).copied() {
-            for pair in touching(model, state, body, time, also) {
+            let near = if again { near(model, state, body) } else { Vec::new() };
+            for pair in touching(model, state, body, time, &near, also) {
                 if !pairs.contains(&pair) {
                     pairs.push(pair);
                 }
@@ -87,7 +96,7 @@ impl Group {
         pairs.sort_unstable();
         let bodies = Island::at(model, state, ids, time);
         let members = pairs.into_iter().map(|pair| member(model, state, &bodies, pair, time)).collect();
-        Self { bodies, members, time, loss: 0.0 }
+        Self { bodies, members, time, seized: DVec3::ZERO }
     }
 
     /// The contacts as bounds on accelerations at the present velocities.
@@ -118,7 +127,7 @@ impl Group {
             let Some(worst) = closing.iter().map(|k| self.closing(&self.members[*k])).reduce(f64::max) else {
                 return self.has_collapsed(rounds);
             };
-            let is_plastic = closing.iter().all(|k| self.members[*k].restitution == 0.0);
+            let is_plastic = self.members.iter().all(|member| member.restitution == 0.0);
             if is_plastic || worst <= SMALLEST_SHARE * largest {
                 break;
             }
@@ -183,30 +192,82 @@ impl Group {
             link.push(&mut self.bodies.v, &self.bodies.inverse_mass, impulse);
             self.members[*k].impulse += impulse;
         }
-        self.loss += 0.5 * (1.0 - restitution) * (1.0 + restitution) * total;
     }
 
     /// Takes all that closes, plastically.
     fn take_up(&mut self) {
+        let largest = self.members.iter().map(|member| member.before).fold(0.0, f64::max);
         let links: Vec<Link> = self.members.iter().map(|member| member.link).collect();
-        let closing: Vec<f64> = links.iter().map(|link| link.entering(&self.bodies.v)).collect();
         let multipliers = enter_none(&links, &self.bodies.inverse_mass, &mut self.bodies.v);
-        for ((member, multiplier), closing) in self.members.iter_mut().zip(multipliers).zip(closing) {
+        for (member, multiplier) in self.members.iter_mut().zip(multipliers) {
             member.impulse += multiplier;
-            self.loss += 0.5 * multiplier * closing;
+        }
+        self.seize(LARGEST_REST * largest);
+    }
+
+    /// Stops what still closes faster than `speed`. Bodies wedged along one line, with normals that differ in
+    /// the eighth digit, would take impulses beyond all digits: they go on as one body, or not at all where
+    /// they touch something fixed.
+    fn seize(&mut self, speed: f64) {
+        let mut stuck: Vec<usize> = Vec::new();
+        // Each pass adds a contact at least.
+        for _ in 0..self.members.len() {
+            let still = self.still_closing();
+            let closing: Vec<usize> =
+                still.into_iter().filter(|k| self.closing(&self.members[*k]) > speed).collect();
+            if closing.is_empty() {
+                return;
+            }
+            stuck.extend(closing);
+            stuck.sort_unstable();
+            stuck.dedup();
+            for connected in self.connected(&stuck) {
+                self.stop(&connected);
+            }
+        }
+    }
+
+    /// Gives the bodies of connected contacts one velocity.
+    fn stop(&mut self, contacts: &[usize]) {
+        let links = contacts.iter().map(|k| self.members[*k].link);
+        let mut bodies: Vec<usize> = links.flat_map(|link| [Some(link.a), link.b]).flatten().collect();
+        bodies.sort_unstable();
+        bodies.dedup();
+        let is_fixed = |member: &Member| member.link.b.is_none() && bodies.contains(&member.link.a);
+        let mass = |body: &usize| 1.0 / self.bodies.inverse_mass[*body];
+        let momentum: DVec3 = bodies.iter().map(|body| mass(body) * self.bodies.v[*body]).sum();
+        let common = if self.members.iter().any(is_fixed) {
+            self.seized -= momentum;
+            DVec3::ZERO
+        } else {
+            momentum / bodies.iter().map(mass).sum::<f64>()
+        };
+        for body in bodies {
+            self.bodies.v[body] = common;
         }
     }
 }
+
+/// What a plastic impact may leave of the largest closing speed before bodies seize: its rounding is far below.
+const LARGEST_REST: f64 = 1e-9;
 
 /// Closing speeds below this share of the largest at the start are taken plastically: a 1e-24th of the energy.
 const SMALLEST_SHARE: f64 = 1e-12;
 
 /// Contacts of one body: lasting ones, bodies that lie against it, and impacts of this instant.
-fn touching(model: &Model, state: &State, body: u32, time: f64, also: &mut Vec<Pair>) -> Vec<Pair> {
+fn touching(
+    model: &Model,
+    state: &State,
+    body: u32,
+    time: f64,
+    nearby: &[Partner],
+    also: &mut Vec<Pair>,
+) -> Vec<Pair> {
     let lasting = state.contacts[body as usize].iter().map(|contact| Pair::new(body, contact.partner));
     let against = state.touching[body as usize].iter().map(|other| Pair::new(body, Partner::Dynamic(*other)));
     let near = |pair: &Pair| gap_of(model, state, *pair, time).distance <= model.params.contact_distance;
-    let mut pairs: Vec<Pair> = lasting.chain(against.filter(near)).collect();
+    let nearby = nearby.iter().map(|partner| Pair::new(body, *partner));
+    let mut pairs: Vec<Pair> = lasting.chain(against.chain(nearby).filter(near)).collect();
     also.retain(|pair| {
         let is_its = pair.a == body || pair.other() == Some(body);
         if is_its {
@@ -216,6 +277,14 @@ fn touching(model: &Model, state: &State, body: u32, time: f64, also: &mut Vec<P
     });
     pairs
 }
+
+/// Whether a body began its present motion in this instant, at an impact as like as not.
+pub(super) fn hit_just_now(model: &Model, state: &State, body: u32, time: f64) -> bool {
+    time - state.segments[body as usize].start <= SAME_INSTANT * model.params.contact_duration
+}
+
+/// Impacts farther apart than this part of the contact duration are not of one instant, however slow.
+pub(super) const SAME_INSTANT: f64 = 1e-3;
 
 fn member(model: &Model, state: &State, bodies: &Island, pair: Pair, time: f64) -> Member {
     let lasting = state.contacts[pair.a as usize].iter().find(|contact| contact.partner == pair.partner);

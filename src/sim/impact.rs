@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::contact::{Contact, Pair, Partner};
 use super::engine::{a_little_after, in_id_order, look_again, rank, record};
-use super::group::{Group, Member, restitution_of};
+use super::group::{Group, Member, hit_just_now, restitution_of};
 use super::island::{From, part, restart};
 use super::lasting::{Settling, settle};
 use super::model::Model;
@@ -24,26 +24,37 @@ pub(super) fn resolve(
     gap: &Gap,
     also: &mut Vec<Pair>,
 ) -> Result<(), Fault> {
-    let is_lone = also.is_empty()
-        && [Some(pair.a), pair.other()]
-            .into_iter()
-            .flatten()
-            .all(|body| state.contacts[body as usize].is_empty() && state.touching[body as usize].is_empty());
-    if is_lone && !is_near_rest(model, state, pair, gap) && !is_in_cascade(model, state, pair, time) {
-        note_lossy(model, state, time, &[pair]);
+    let is_lone = [Some(pair.a), pair.other()].into_iter().flatten().all(|body| {
+        state.contacts[body as usize].is_empty()
+            && state.touching[body as usize].is_empty()
+            && also.iter().all(|other| other.a != body && other.other() != Some(body))
+            && !hit_just_now(model, state, body, time)
+    });
+    let is_plain = !is_near_rest(model, pair, gap) && !is_in_cascade(model, state, pair, time);
+    if is_lone && is_plain {
         return bounce(model, state, time, pair, gap);
     }
     let mut group = Group::gather(model, state, time, pair, also);
+    if group.members.len() == 1 && is_plain {
+        return bounce(model, state, time, pair, gap);
+    }
     let closing: Vec<Pair> = group.closing_now().map(|member| member.pair).collect();
     let cascading = note_lossy(model, state, time, &closing);
     if cascading != Cascading::No {
-        group.members.iter_mut().for_each(|member| member.restitution = 0.0);
+        // Only where it happens: the other end of a heap bounces as it would.
+        let counts =
+            |body: u32| f64::from(state.cascades[body as usize].length) >= model.params.collapse_count;
+        for member in &mut group.members {
+            if counts(member.pair.a) || member.pair.other().is_some_and(counts) {
+                member.restitution = 0.0;
+            }
+        }
     }
     let has_collapsed = group.resolve();
     let kind =
         if cascading == Cascading::Begins || has_collapsed { EventKind::Collapse } else { EventKind::Impact };
     list(model, state, time, &group, kind);
-    finish(model, state, time, group, pair)
+    finish(model, state, time, group)
 }
 
 /// Mass that an impulse between two bodies moves, kg.
@@ -53,14 +64,15 @@ fn moved_mass(model: &Model, pair: Pair) -> f64 {
 }
 
 /// Whether the last bounces may have come: the full rule must decide.
-fn is_near_rest(model: &Model, state: &State, pair: Pair, gap: &Gap) -> bool {
+fn is_near_rest(model: &Model, pair: Pair, gap: &Gap) -> bool {
     let speed = restitution_of(model, pair) * -gap.rate;
-    let rounding = touch_tolerance(state.segments[pair.a as usize].x, model.movers[pair.a as usize].radius);
+    let rounding = touch_tolerance(gap.point, model.movers[pair.a as usize].radius);
     speed <= model.params.rest_speed || speed * speed <= 4.0 * gap.drive.abs() * rounding
 }
 
 /// Newton's law for two bodies that touch nothing else: v_n' = −e v_n.
 fn bounce(model: &Model, state: &mut State, time: f64, pair: Pair, gap: &Gap) -> Result<(), Fault> {
+    note_lossy(model, state, time, &[pair]);
     let Blow { impulse, parting, loss } =
         blow(moved_mass(model, pair), restitution_of(model, pair), -gap.rate);
     state.account.impact_losses.add(loss);
@@ -123,7 +135,7 @@ fn list(model: &Model, state: &mut State, time: f64, group: &Group, kind: EventK
 }
 
 /// Books what a group lost and was given, settles what has come to rest, and lets its bodies go on.
-fn finish(model: &Model, state: &mut State, time: f64, mut group: Group, first: Pair) -> Result<(), Fault> {
+fn finish(model: &Model, state: &mut State, time: f64, mut group: Group) -> Result<(), Fault> {
     let before: Vec<DVec3> = group.bodies.ids.iter().map(|body| state.velocity(*body, time)).collect();
     let settling = settle(model, &mut group);
     let mut changed: Vec<bool> = before.iter().zip(&group.bodies.v).map(|(old, new)| old != new).collect();
@@ -142,18 +154,30 @@ fn finish(model: &Model, state: &mut State, time: f64, mut group: Group, first: 
             None => {}
         }
     }
-    state.account.impact_losses.add(group.loss);
-    if !changed.iter().any(|changed| *changed) {
-        // It neither needs an impulse nor lasts.
-        look_again(model, state, first, a_little_after(time), time);
-        return Ok(());
+    state.account.impulses.add(group.seized);
+    for (k, before) in before.iter().enumerate() {
+        // ½m(v² − v'²) as a product, which does not cancel.
+        let after = group.bodies.v[k];
+        let loss = 0.5 * (*before - after).dot(*before + after) / group.bodies.inverse_mass[k];
+        state.account.impact_losses.add(loss);
     }
+    let unmoved: Vec<Pair> = group
+        .members
+        .iter()
+        .filter(|member| !changed[member.link.a] && !member.link.b.is_some_and(|b| changed[b]))
+        .map(|member| member.pair)
+        .collect();
     let bodies = group.bodies;
     let starts: Vec<From> = (0..bodies.ids.len())
         .filter(|k| changed[*k])
         .map(|k| From { body: bodies.ids[k], x: bodies.x[k], v: bodies.v[k] })
         .collect();
-    restart(model, state, time, &starts)
+    restart(model, state, time, &starts)?;
+    // What neither needed an impulse nor lasts.
+    for pair in unmoved {
+        look_again(model, state, pair, a_little_after(time), time);
+    }
+    Ok(())
 }
 
 /// Enters a lasting contact with both bodies, or what is new about an old one.
@@ -190,14 +214,13 @@ fn is_in_cascade(model: &Model, state: &State, pair: Pair, time: f64) -> bool {
 /// Counts an impact of moving bodies that loses energy. Others make no collapse: elastic ones go on anyway,
 /// and a lone body comes to rest on what is fixed.
 fn note_lossy(model: &Model, state: &mut State, time: f64, pairs: &[Pair]) -> Cascading {
-    let mut cascading = Cascading::No;
-    for pair in pairs.iter().filter(|pair| restitution_of(model, **pair) < 1.0) {
-        let Some(other) = pair.other() else { continue };
-        for body in [pair.a, other] {
-            cascading = cascading.max(count(model, state, body, time));
-        }
-    }
-    cascading
+    let lossy = pairs.iter().filter(|pair| restitution_of(model, **pair) < 1.0);
+    let mut bodies: Vec<u32> =
+        lossy.filter_map(|pair| pair.other().map(|other| [pair.a, other])).flatten().collect();
+    // A group is one impact to each of its bodies.
+    bodies.sort_unstable();
+    bodies.dedup();
+    bodies.into_iter().map(|body| count(model, state, body, time)).max().unwrap_or(Cascading::No)
 }
 
 fn count(model: &Model, state: &mut State, body: u32, time: f64) -> Cascading {

@@ -1,9 +1,11 @@
 //! Islands: dynamic bodies connected by lasting contacts, which move together. A body that touches static
 //! bodies only is an island of its own.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use glam::DVec3;
 
-use super::constraint::{Link, enter_none, stay_on};
+use super::constraint::{Link, enter_none, largest_push, stay_on};
 use super::contact::{Bodies, Contact, Pair, Partner, Surface, surface_of};
 use super::engine::{fault, record_contact};
 use super::model::Model;
@@ -36,29 +38,29 @@ pub(super) struct Island {
 
 /// All bodies connected to the given ones by lasting contacts, and these, in the order of their indices.
 pub(super) fn connected(state: &State, bodies: impl IntoIterator<Item = u32>) -> Vec<u32> {
-    let mut found: Vec<u32> = bodies.into_iter().collect();
-    let mut next = 0;
-    while let Some(body) = found.get(next).copied() {
+    let mut waiting: Vec<u32> = bodies.into_iter().collect();
+    let mut found: BTreeSet<u32> = waiting.iter().copied().collect();
+    while let Some(body) = waiting.pop() {
         for contact in &state.contacts[body as usize] {
             if let Partner::Dynamic(other) = contact.partner
-                && !found.contains(&other)
+                && found.insert(other)
             {
-                found.push(other);
+                waiting.push(other);
             }
         }
-        next += 1;
     }
-    found.sort_unstable();
-    found.dedup();
-    found
+    found.into_iter().collect()
 }
 
-/// Splits sorted bodies, closed under contact, into islands.
+/// Splits bodies, closed under contact, into islands.
 pub(super) fn islands(state: &State, bodies: &[u32]) -> Vec<Vec<u32>> {
-    let mut all: Vec<Vec<u32>> = Vec::new();
+    let mut seen = BTreeSet::new();
+    let mut all = Vec::new();
     for body in bodies {
-        if !all.iter().any(|island| island.binary_search(body).is_ok()) {
-            all.push(connected(state, [*body]));
+        if !seen.contains(body) {
+            let island = connected(state, [*body]);
+            seen.extend(island.iter().copied());
+            all.push(island);
         }
     }
     all
@@ -91,9 +93,9 @@ impl Island {
     fn held(&self, model: &Model, time: f64) -> Vec<bool> {
         let links = self.links(model);
         let mut motion = self.free(model, time);
-        let scale =
-            motion.iter().map(|a| a.length()).chain(links.iter().map(|l| l.limit)).fold(0.0, f64::max);
-        enter_none(&links, &self.inverse_mass, &mut motion);
+        let applied = largest(&motion, &links);
+        let forces = enter_none(&links, &self.inverse_mass, &mut motion);
+        let scale = applied.max(largest_push(&links, &self.inverse_mass, &forces));
         let parts = |link: &Link| link.limit - link.entering(&motion) > PRESSURE_ROUNDING * scale;
         links.iter().map(|link| scale > 0.0 && !parts(link)).collect()
     }
@@ -254,26 +256,34 @@ pub(super) fn first_parting(model: &Model, state: &State, ids: &[u32]) -> Option
 /// segments begin, and everything about them is predicted. All segments must stand before anything is
 /// predicted between them.
 pub(super) fn restart(model: &Model, state: &mut State, time: f64, starts: &[From]) -> Result<(), Fault> {
-    if starts.iter().all(|start| state.contacts[start.body as usize].is_empty()) {
+    let is_free = |state: &State, body: u32| state.contacts[body as usize].is_empty();
+    if starts.iter().all(|start| is_free(state, start.body)) {
         for start in starts {
             begin_free(model, state, time, start)?;
         }
         starts.iter().for_each(|start| predict_all(model, state, start.body, time));
-    } else {
-        let bodies = begin_islands(model, state, time, starts)?;
-        bodies.into_iter().for_each(|body| predict_all(model, state, body, time));
+        return Ok(());
     }
+    let (free, held): (Vec<From>, Vec<From>) = starts.iter().partition(|start| is_free(state, start.body));
+    for start in &free {
+        begin_free(model, state, time, start)?;
+    }
+    let mut bodies = begin_islands(model, state, time, &held)?;
+    bodies.extend(free.iter().map(|start| start.body));
+    bodies.sort_unstable();
+    bodies.into_iter().for_each(|body| predict_all(model, state, body, time));
     Ok(())
 }
 
 /// Begins segments for bodies and all that they are in contact with; gives them all.
 fn begin_islands(model: &Model, state: &mut State, time: f64, starts: &[From]) -> Result<Vec<u32>, Fault> {
     let bodies = connected(state, starts.iter().map(|start| start.body));
-    let place_of = |state: &State, body: u32| match starts.iter().find(|start| start.body == body) {
+    let given: BTreeMap<u32, &From> = starts.iter().map(|start| (start.body, start)).collect();
+    let place_of = |body: &u32| match given.get(body) {
         Some(start) => (start.x, start.v),
-        None => (state.position(body, time), state.velocity(body, time)),
+        None => (state.position(*body, time), state.velocity(*body, time)),
     };
-    let from: Vec<(DVec3, DVec3)> = bodies.iter().map(|body| place_of(state, *body)).collect();
+    let from: Vec<(DVec3, DVec3)> = bodies.iter().map(place_of).collect();
     let of = |body: u32| bodies.binary_search(&body).map_or((DVec3::ZERO, DVec3::ZERO), |k| from[k]);
     for ids in islands(state, &bodies) {
         drop_unpressed(model, state, &Island::new(model, state, ids, of), time);

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::ContactState;
-use super::constraint::{Link, enter_none, stay_on};
+use super::constraint::{Link, enter_none, largest_push, stay_on};
 use super::contact::{Contact, Pair, Partner, Surface};
 use super::group::{Group, Member};
 use super::island::{connected, first_parting};
@@ -157,9 +157,9 @@ fn pressing(group: &Group, held: &[Link], index: usize, load: f64, free: &[DVec3
     let others: Vec<Link> =
         (0..held.len()).filter(|other| *other != index).map(|other| held[other]).collect();
     let mut driven = free.to_vec();
-    enter_none(&others, &group.bodies.inverse_mass, &mut driven);
-    let rounding = PRESSURE_ROUNDING
-        * (link.b.map_or(0.0, |b| free[b].length()).max(free[link.a].length()) + link.limit);
+    let loads = enter_none(&others, &group.bodies.inverse_mass, &mut driven);
+    let applied = link.b.map_or(0.0, |b| free[b].length()).max(free[link.a].length()) + link.limit;
+    let rounding = PRESSURE_ROUNDING * applied.max(largest_push(&others, &group.bodies.inverse_mass, &loads));
     let alone = link.entering(&driven) - link.limit;
     let shared = load * link.response(link, &group.bodies.inverse_mass);
     [alone, shared].into_iter().find(|pressing| *pressing > rounding)
@@ -183,11 +183,9 @@ fn remaining_flights(model: &Model, group: &Group, index: usize, pressing: f64) 
 /// Takes what still parts or enters at lasting contacts out of the velocities.
 fn level(group: &mut Group, settling: &[Settling]) {
     let links: Vec<Link> = settling.iter().map(|contact| group.members[contact.member].link).collect();
-    let entering: Vec<f64> = links.iter().map(|link| link.entering(&group.bodies.v)).collect();
     let multipliers = stay_on(&links, &group.bodies.inverse_mass, &mut group.bodies.v);
-    for ((contact, multiplier), entering) in settling.iter().zip(multipliers).zip(entering) {
+    for (contact, multiplier) in settling.iter().zip(multipliers) {
         group.members[contact.member].impulse += multiplier;
-        group.loss += 0.5 * multiplier * entering;
     }
 }
 

@@ -198,6 +198,14 @@ fn collect(
     }
 }
 
+/// All that lies in the tiles of a body.
+pub(super) fn near(model: &Model, state: &State, body: u32) -> Vec<Partner> {
+    let mut scratch = Scratch::default();
+    collect(model, state, &mut scratch, body, state.registered[body as usize], None);
+    let moving = scratch.found_moving.into_iter().map(Partner::Dynamic);
+    moving.chain(scratch.found_fixed.into_iter().map(Partner::Static)).collect()
+}
+
 /// Predicts the next impact of two dynamic bodies that are not in lasting contact. `from` is −∞ but where an
 /// earlier search gave up.
 pub(super) fn predict_pair(model: &Model, state: &mut State, a: u32, b: u32, from: f64, time: f64) {

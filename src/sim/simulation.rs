@@ -135,10 +135,15 @@ impl Simulation {
                 }
             }
         }
-        // Nothing lies between here and the last prediction, so it can be looked at.
-        if self.state.outbox.is_empty() {
-            self.state.now = self.state.now.max(self.state.reached);
+        // The bodies of an event follow their new motion already: it is handed out before anyone looks.
+        if let Some(event) = self.state.outbox.pop_front() {
+            self.state.now = self.state.now.max(event.time);
+            return Ok(Progress::Event(event));
         }
+        if let Some(fault) = &self.fault {
+            return Err(fault.clone());
+        }
+        self.state.now = self.state.now.max(self.state.reached);
         Ok(Progress::Working)
     }
 

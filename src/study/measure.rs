@@ -170,7 +170,7 @@ impl<'a> Trial<'a> {
     }
 
     fn event(&mut self, event: &Event) {
-        if let (EventKind::Impact, Some(b)) = (event.kind, event.b) {
+        if let (EventKind::Impact | EventKind::Collapse, Some(b)) = (event.kind, event.b) {
             self.point.impacts += 1;
             self.hits
                 .push(Hit { time: event.time, bodies: [self.scene_index(event.a), self.scene_index(b)] });

@@ -21,6 +21,8 @@ impl Window {
 
     fn wait_for_study(&mut self) {
         let since = Instant::now();
+        // The click itself takes a turn, in which the button is still there.
+        self.harness.step();
         while !self.has("Run study") {
             assert!(since.elapsed() < Duration::from_secs(120), "the study does not end");
             std::thread::sleep(Duration::from_millis(20));

@@ -1,5 +1,5 @@
 //! Every figure of every hard case within its limit, at a long, a usual and a short Δt; but for those listed.
-//! The gases of 10 000 take minutes in this build: `polyscene study --hard-cases` measures them.
+//! The gases of 10 000 take minutes in this build: `polyscene hard-cases` measures them.
 
 use polyscene::study::cases::{CASES, STEPS, measure};
 

@@ -48,7 +48,7 @@ pub(super) fn surely_pass(a: Mover<'_>, b: Mover<'_>, near: f64) -> bool {
     let v = (seg_b.v + tau_b * seg_b.a) - (seg_a.v + tau_a * seg_a.a);
     let reach = a.radius + b.radius;
     let apart = p.length_squared() > (reach + near) * (reach + near);
-    ((p.dot(v) >= 0.0) & apart) | misses(p, v, reach)
+    apart & ((p.dot(v) >= 0.0) | misses(p, v, reach))
 }
 
 pub(super) fn first_contact_fixed(mover: Mover<'_>, center: DVec3, radius: f64, from: f64) -> Option<f64> {
