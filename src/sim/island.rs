@@ -95,9 +95,11 @@ impl Island {
         let mut motion = self.free(model, time);
         let applied = largest(&motion, &links);
         let forces = enter_none(&links, &self.inverse_mass, &mut motion);
-        let scale = applied.max(largest_push(&links, &self.inverse_mass, &forces));
-        let parts = |link: &Link| link.limit - link.entering(&motion) > PRESSURE_ROUNDING * scale;
-        links.iter().map(|link| scale > 0.0 && !parts(link)).collect()
+        let pushed = largest_push(&links, &self.inverse_mass, &forces);
+        let rounding = PRESSURE_ROUNDING * applied.max(pushed);
+        let parts = |link: &Link| link.limit - link.entering(&motion) > rounding;
+        // Bodies that fall side by side carry nothing: that is no contact.
+        links.iter().map(|link| pushed > rounding && !parts(link)).collect()
     }
 }
 

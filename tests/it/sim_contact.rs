@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::{DVec3, dvec3};
-use polyscene::scene::{Body, ForceKind, Scene};
+use polyscene::scene::{Body, ForceKind, NodeKey, Scene};
 use polyscene::sim::{ContactState, Event, EventKind, SimEdit, Simulation};
 
 use crate::common::build::{Build, Shaped, ball, empty, force, static_ball};
@@ -215,4 +215,53 @@ fn ball_on_a_ball_on_the_floor_stays_sound() {
             .body(ball(3, dvec3(5.0 + offset, 3.0, 5.0), DVec3::ZERO).bounce(0.5));
         crate::sim_random::assert_sound(&scene, 1.2, &format!("offset {offset}"));
     }
+}
+
+#[test]
+fn heavy_ball_stands_on_a_light_one() {
+    for ratio in [1e2, 1e3, 1e6] {
+        let scene = empty()
+            .gravity(-9.8)
+            .floor(1, 3.0)
+            .body(lossy(dvec3(5.0, 0.5, 5.0), DVec3::ZERO))
+            .body(ball(3, dvec3(5.0, 1.5, 5.0), DVec3::ZERO).bounce(0.5).mass(ratio));
+        let mut sim = simulation(&scene);
+        let events = advance(&mut sim, 1e3, Sampling::Every(10.0));
+        assert!(events.len() <= 8, "{ratio}: {} events", events.len());
+        for (id, y) in [(2, 0.5), (3, 1.5)] {
+            let state = state_of(&sim, id);
+            assert_eq!((state.contact, state.velocity), (ContactState::Rest, DVec3::ZERO), "{ratio}: {id}");
+            assert!((state.position.y - y).abs() <= 1e-12, "{ratio}: {state:?}");
+        }
+    }
+}
+
+#[test]
+fn heap_lets_go_when_its_middle_is_taken_or_gravity_turns() {
+    let stack = || {
+        let balls = [(2, 0.5), (3, 1.5), (4, 2.5)]
+            .map(|(id, y)| ball(id, dvec3(5.0, y, 5.0), DVec3::ZERO).bounce(0.5));
+        balls.into_iter().fold(empty().gravity(-9.8).floor(1, 3.0), |scene, ball| scene.body(ball))
+    };
+    let mut sim = simulation(&stack());
+    advance(&mut sim, 1.0, Sampling::Every(0.3));
+    assert_eq!(state_of(&sim, 4).contact, ContactState::Rest);
+    sim.apply(&SimEdit::Remove(NodeKey(3))).expect("the ball is there");
+    advance(&mut sim, 1.2, Sampling::Every(0.3));
+    assert!((state_of(&sim, 4).position.y - (2.5 - 4.9 * 0.04)).abs() <= 1e-9, "{:?}", state_of(&sim, 4));
+    advance(&mut sim, 6.0, Sampling::Every(0.3));
+    assert!((state_of(&sim, 4).position.y - 1.5).abs() <= 1e-9, "{:?}", state_of(&sim, 4));
+
+    let mut sim = simulation(&stack());
+    advance(&mut sim, 1.0, Sampling::Every(0.3));
+    let up = ForceKind::GravityPlane { position: DVec3::ZERO, acceleration: DVec3::Y * 2.0 };
+    sim.apply(&SimEdit::ChangeForce(Box::new(force(1, up)))).expect("the force is there");
+    advance(&mut sim, 2.0, Sampling::Every(0.3));
+    for (id, y) in [(2, 0.5), (3, 1.5), (4, 2.5)] {
+        let state = state_of(&sim, id);
+        assert_eq!(state.contact, ContactState::Flight, "{id}");
+        assert!((state.position.y - (y + 1.0)).abs() <= 1e-9, "{id}: {state:?}");
+    }
+    let residual = sim.energy().residual.expect("gravity has a potential");
+    assert!(residual.abs() <= 1e-12, "{residual:e}");
 }

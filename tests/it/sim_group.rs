@@ -1,4 +1,6 @@
-//! Several contacts at one instant: corners, trains of balls, a billiard break.
+//! Several contacts at one instant: corners, trains of balls, a billiard break, jams.
+
+use std::f64::consts::FRAC_PI_2;
 
 use glam::{DVec3, dvec3};
 use polyscene::scene::Scene;
@@ -26,7 +28,7 @@ fn corner_of_any_angle_keeps_energy_and_mirror_symmetry() {
     // Falling into a V along its plane of symmetry, a ball comes back along it.
     for tilt in [0.2, 0.5, 0.7, 1.0, 1.3] {
         let side = |id: i64, sign: f64| {
-            let rotation = dvec3(-std::f64::consts::FRAC_PI_2, sign * tilt, 0.0);
+            let rotation = dvec3(-FRAC_PI_2, sign * tilt, 0.0);
             plate(id, dvec3(5.0, 0.0, 5.0), rotation, 30.0, 30.0)
         };
         let scene = empty().body(side(1, 1.0)).body(side(2, -1.0)).ball(
@@ -113,6 +115,51 @@ fn billiard_break_does_not_depend_on_the_order_of_the_file() {
         let mut scene = billiard(&ids);
         random.shuffle(&mut scene.bodies);
         assert_same_bits(&expected, &run(&scene, 1.0, Sampling::Every(0.1)), "another order");
+    }
+}
+
+#[test]
+fn a_ball_in_a_gap_of_its_own_size_is_thrown_to_and_fro_no_more() {
+    // It touches both walls: each impact would be followed by the next at the same time, for ever.
+    for e in [0.3, 0.7, 1.0] {
+        let wall = |id: i64, x: f64| plate(id, dvec3(x, 5.0, 5.0), dvec3(0.0, FRAC_PI_2, 0.0), 3.0, 3.0);
+        let scene = empty().body(wall(1, 5.0)).body(wall(2, 6.0));
+        let scene = scene.body(ball(3, dvec3(5.5, 5.0, 5.0), dvec3(2.0, 0.0, 0.5)).bounce(e));
+        let run = run(&scene, 3.0, Sampling::Every(0.1));
+        assert!(run.events.len() <= 4, "e {e}: {} events", run.events.len());
+        let state = run.states[0].1;
+        assert!((state.velocity - dvec3(0.0, 0.0, 0.5)).length() <= 1e-12, "e {e}: {state:?}");
+    }
+}
+
+#[test]
+fn a_slow_neighbour_within_the_contact_distance_is_hit_with_the_other() {
+    let mut scene = empty()
+        .ball(1, dvec3(2.0, 5.0, 5.0), dvec3(2.0, 0.0, 0.0))
+        .ball(2, dvec3(5.0, 5.0, 5.0), DVec3::ZERO)
+        .ball(3, dvec3(6.0005, 5.0, 5.0), dvec3(0.0, 1e-4, 0.0));
+    scene.params.contact_distance = 1e-3;
+    let events = run(&scene, 1.2, Sampling::Every(0.1)).events;
+    assert_eq!(events.len(), 2, "{events:?}");
+    assert_eq!((events[0].group, events[0].time), (events[1].group, events[1].time), "{events:?}");
+}
+
+#[test]
+fn elastic_contacts_stay_elastic_beside_a_floor_without_bounce() {
+    // A ball falls on one of two that stand on a floor: whether the floor has a Bounce of 0 or next to it must
+    // not matter to the balls.
+    let scene = |floor: f64| {
+        let mut scene = empty().floor(9, 4.0);
+        scene.bodies[0].bounce = floor;
+        scene.ball(1, dvec3(5.0, 0.5, 5.0), DVec3::ZERO).ball(2, dvec3(6.0, 0.5, 5.0), DVec3::ZERO).ball(
+            3,
+            dvec3(5.5, 3.0, 5.0),
+            dvec3(0.0, -2.0, 0.0),
+        )
+    };
+    let [none, little] = [0.0, 1e-9].map(|floor| run(&scene(floor), 2.0, Sampling::Every(0.1)));
+    for ((_, left), (_, right)) in none.states.iter().zip(&little.states) {
+        assert!((left.velocity - right.velocity).length() <= 1e-6, "{left:?} {right:?}");
     }
 }
 

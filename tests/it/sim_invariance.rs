@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use polyscene::scene::Scene;
+use polyscene::sim::Progress;
 
 use crate::common::build::{Build, thesis};
 use crate::common::drive::{
@@ -219,3 +220,25 @@ fn bits_are_those_of_every_platform() {
 
 /// Events and hash of the thesis scene at 10 s. Re-record only with a reason in the commit.
 const GOLDEN: (usize, u64) = (30, 4918170001863217173);
+
+#[test]
+fn a_pause_between_predictions_shows_what_a_step_to_that_time_shows() {
+    // Paused after every single prediction, also where one makes an event.
+    let scene = thesis();
+    let mut sim = simulation(&scene);
+    sim.begin(3.0);
+    let mut pauses = 0;
+    loop {
+        match sim.work(1).expect("a run without faults") {
+            Progress::Done => break,
+            Progress::Event(_) | Progress::Working => pauses += 1,
+        }
+        if pauses % 40 == 0 {
+            let expected = run(&scene, sim.time(), Sampling::Events);
+            for ((_, left), (_, right)) in states(&sim).iter().zip(&expected.states) {
+                assert!((left.position - right.position).length() <= 1e-12, "{left:?} {right:?}");
+            }
+        }
+    }
+    assert!(pauses > 100, "{pauses}");
+}
