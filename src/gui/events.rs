@@ -20,7 +20,7 @@ const TITLES: [(&str, &str); 8] = [
     ("t [s]", "Model time"),
     ("Δt", "Where in the Δt it happened, 0 % to 100 %"),
     ("Kind", "What happened"),
-    ("Bodies", "Who took part; impacts of the same instant are resolved one after the other"),
+    ("Bodies", "Who took part; the contacts of bodies that touch are resolved together"),
     (
         "Normal speed before → after [m/s]",
         "Speed along the normal, of the second body relative to the first: negative when closing",
@@ -66,18 +66,46 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>) {
         .body(|body| {
             body.rows(ROW_HEIGHT, frame.events.len(), |mut row| {
                 if let Some(event) = frame.events.get(row.index()) {
-                    show_row(&mut row, context, frame, event);
+                    let group = place_in_group(&frame.events, row.index());
+                    show_row(&mut row, context, frame, event, group);
                 }
             });
         });
 }
 
-fn show_row(row: &mut TableRow<'_, '_>, context: &AppContext<'_>, frame: &Frame, event: &Arc<EventRow>) {
+/// Which contact of how many it is in its impact group; `None` for one that was resolved alone.
+fn place_in_group(rows: &[Arc<EventRow>], index: usize) -> Option<(usize, usize)> {
+    let group = rows.get(index).map(|row| row.event.group).filter(|group| *group > 0)?;
+    let same = |row: &&Arc<EventRow>| row.event.group == group;
+    let before = rows[..index].iter().rev().take_while(same).count();
+    let after = rows[index..].iter().take_while(same).count();
+    (before + after > 1).then_some((before + 1, before + after))
+}
+
+fn show_row(
+    row: &mut TableRow<'_, '_>,
+    context: &AppContext<'_>,
+    frame: &Frame,
+    event: &Arc<EventRow>,
+    group: Option<(usize, usize)>,
+) {
     let chosen = context.session.shown_event().is_some_and(|shown| shown.event.seq == event.event.seq);
     row.set_selected(chosen);
     let labels = joined(&event.a_label, &event.b_label);
     for (column, text) in cells(context, frame, event).into_iter().enumerate() {
+        let (text, grouped) = match group {
+            Some((nth, of)) if column == 3 => {
+                let help = format!(
+                    "{}\nContact {nth} of {of} of impact group {}, resolved together",
+                    event.event.kind.meaning(),
+                    event.event.group
+                );
+                (format!("{text} {nth}/{of}"), help)
+            }
+            _ => (text, String::new()),
+        };
         let help = match column {
+            3 if group.is_some() => &grouped,
             3 => event.event.kind.meaning(),
             4 if text != labels => &labels,
             _ => "",

@@ -184,6 +184,10 @@ impl Run {
         let at_event =
             history.time_of(self.last_event) == Some(self.simulation.time()) && self.grid.open.is_some();
         let target = if at_event { self.last_event.saturating_sub(1) } else { self.last_event };
+        if self.history.time_of(target).is_none() {
+            self.message = Some("there is no recorded event before this one".into());
+            return;
+        }
         self.back_to_event(target);
     }
 

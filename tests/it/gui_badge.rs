@@ -46,3 +46,32 @@ fn exact_stays_quiet() {
     assert!(!window.has("warning"));
     assert!(window.badge().contains("events/Δt") || window.badge().contains("event/Δt"));
 }
+
+#[test]
+fn contacts_resolved_together_say_so() {
+    let mut window = Window::bytes(include_bytes!("../../scenes/hard/cradle-3.xml"));
+    (0..200).for_each(|_| {
+        if window.frame().events.len() < 2 {
+            window.click("Step forward");
+        }
+    });
+    let group = window.frame().events[0].event.group;
+    let together = window.frame().events.iter().filter(|row| row.event.group == group).count();
+    assert!(group > 0 && together > 1, "the cradle's contacts share a group");
+    assert!(window.has(&format!("impact 1/{together}")));
+}
+
+#[test]
+fn what_the_scene_does_not_need_is_listed() {
+    let window = Window::thesis();
+    assert!(!window.frame().plan.left_out.is_empty());
+    window.frame().plan.left_out.iter().for_each(|reason| assert!(window.has_containing(reason), "{reason}"));
+}
+
+#[test]
+fn back_from_the_first_event_says_why_not() {
+    let mut window = Window::thesis();
+    window.click("Next event");
+    window.click("Event back");
+    assert!(window.has_containing("there is no recorded event before this one"));
+}

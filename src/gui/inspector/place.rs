@@ -108,15 +108,13 @@ fn plan(ui: &mut Ui, context: &AppContext<'_>) {
         ui.label("Pairs").on_hover_text("Shapes that can meet in this scene");
         ui.label(RichText::new(pairs).color(tones(ui).weak));
         ui.end_row();
-        if !plan.left_out.is_empty() {
-            ui.label("Left out");
-            let text = format!("{} things nothing needs", plan.left_out.len());
-            let list =
-                plan.left_out.iter().map(|reason| format!("• {reason}")).collect::<Vec<_>>().join("\n");
-            ui.label(RichText::new(text).color(tones(ui).weak)).on_hover_text(list);
-            ui.end_row();
-        }
     });
+    if !plan.left_out.is_empty() {
+        ui.label("Left out").on_hover_text("What this scene does not need is neither stored nor computed");
+        for reason in &plan.left_out {
+            ui.label(RichText::new(format!("• {reason}")).small().color(tones(ui).weak));
+        }
+    }
 }
 
 fn param_row(ui: &mut Ui, context: &AppContext<'_>, scene: &Scene, param: &ParamInfo) {
