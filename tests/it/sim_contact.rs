@@ -241,7 +241,7 @@ fn heap_lets_go_when_its_middle_is_taken_or_gravity_turns() {
     let stack = || {
         let balls = [(2, 0.5), (3, 1.5), (4, 2.5)]
             .map(|(id, y)| ball(id, dvec3(5.0, y, 5.0), DVec3::ZERO).bounce(0.5));
-        balls.into_iter().fold(empty().gravity(-9.8).floor(1, 3.0), |scene, ball| scene.body(ball))
+        balls.into_iter().fold(empty().gravity(-9.8).floor(1, 3.0), Build::body)
     };
     let mut sim = simulation(&stack());
     advance(&mut sim, 1.0, Sampling::Every(0.3));
