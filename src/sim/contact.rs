@@ -5,7 +5,9 @@ use glam::DVec3;
 use super::BodyRef;
 use super::constraint::Link;
 use super::model::{Fixture, FixtureShape, Model};
-use super::predict::{Feature, closest_on_plate};
+use super::predict::{Feature, Gap, closest_on_plate, sphere_fixture_gap, sphere_sphere_gap};
+use super::restitution::of_pair;
+use super::state::State;
 
 /// What a body touches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -35,6 +37,17 @@ impl Pair {
             Partner::Dynamic(other) => Some(other),
             Partner::Static(_) => None,
         }
+    }
+
+    /// The dynamic bodies.
+    pub fn bodies(&self) -> impl Iterator<Item = u32> + use<> {
+        [Some(self.a), self.other()].into_iter().flatten()
+    }
+
+    /// Each dynamic body with what it touches.
+    pub fn ends(&self) -> impl Iterator<Item = (u32, Partner)> + use<> {
+        let back = self.other().map(|other| (other, Partner::Dynamic(self.a)));
+        [Some((self.a, self.partner)), back].into_iter().flatten()
     }
 
     pub fn refs(&self) -> (BodyRef, BodyRef) {
@@ -73,6 +86,24 @@ pub(super) fn surface_of(fixture: &Fixture, position: DVec3) -> Surface {
             if near.feature == Feature::Face { Surface::Flat(near.towards) } else { Surface::Round }
         }
     }
+}
+
+/// The gap of two bodies, with the normal from the first to the partner.
+pub(super) fn gap_of(model: &Model, state: &State, pair: Pair, time: f64) -> Gap {
+    let mover = state.mover(model, pair.a);
+    match pair.partner {
+        Partner::Dynamic(other) => sphere_sphere_gap(mover, state.mover(model, other), time),
+        Partner::Static(fixture) => sphere_fixture_gap(mover, &model.fixtures[fixture as usize], time),
+    }
+}
+
+/// Product of the two Bounce values.
+pub(super) fn restitution_of(model: &Model, pair: Pair) -> f64 {
+    let other = match pair.partner {
+        Partner::Dynamic(other) => model.movers[other as usize].bounce,
+        Partner::Static(fixture) => model.fixtures[fixture as usize].bounce,
+    };
+    of_pair(model.movers[pair.a as usize].bounce, other)
 }
 
 /// Some bodies at one time, in the order of their indices.

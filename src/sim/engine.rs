@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use super::account::present;
-use super::contact::{Pair, Partner};
-use super::group::{SAME_INSTANT, gap_of};
+use super::contact::{Pair, Partner, gap_of};
+use super::group::SAME_INSTANT;
 use super::impact::{self, contact_event};
 use super::island::{From, part, restart};
 use super::model::Model;
@@ -114,8 +114,7 @@ fn simultaneous(model: &Model, state: &mut State, pair: Pair, time: f64, gap: &G
 
 /// The larger radius of a pair, m.
 fn reach(model: &Model, pair: Pair) -> f64 {
-    let radius = |body: u32| model.movers[body as usize].radius;
-    pair.other().map_or(radius(pair.a), |other| radius(pair.a).max(radius(other)))
+    pair.bodies().map(|body| model.movers[body as usize].radius).fold(0.0, f64::max)
 }
 
 /// Predicts again what was no contact.
@@ -166,9 +165,8 @@ fn pass_core(model: &Model, state: &mut State, next: &Predicted) -> Result<(), F
 /// The limit time of the bounces of two bodies has come.
 fn settled(model: &Model, state: &mut State, next: &Predicted) {
     let (pair, time) = (pair_of(next), next.time);
-    let ends = [Some((pair.a, pair.partner)), pair.other().map(|other| (other, Partner::Dynamic(pair.a)))];
     let mut was_due = false;
-    for (body, partner) in ends.into_iter().flatten() {
+    for (body, partner) in pair.ends() {
         let contacts = &mut state.contacts[body as usize];
         let contact = contacts.iter_mut().find(|contact| contact.partner == partner);
         was_due |= contact.is_some_and(|contact| contact.settles_at.take().is_some());
@@ -186,8 +184,7 @@ fn settled(model: &Model, state: &mut State, next: &Predicted) {
 fn leave_contact(model: &Model, state: &mut State, next: &Predicted) -> Result<(), Fault> {
     let (pair, time) = (pair_of(next), next.time);
     part(model, state, pair, time);
-    let bodies = [Some(pair.a), pair.other()].into_iter().flatten();
-    let starts: Vec<From> = bodies.map(|body| from_now(state, body, time)).collect();
+    let starts: Vec<From> = pair.bodies().map(|body| from_now(state, body, time)).collect();
     restart(model, state, time, &starts)
 }
 

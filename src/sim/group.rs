@@ -15,12 +15,11 @@
 use glam::DVec3;
 
 use super::constraint::{Link, enter_none};
-use super::contact::{Bodies, Pair, Partner, Surface, surface_of};
+use super::contact::{Bodies, Pair, Partner, Surface, gap_of, restitution_of, surface_of};
 use super::island::Island;
 use super::model::Model;
 use super::neighbours::near;
-use super::predict::{Gap, sphere_fixture_gap, sphere_sphere_gap};
-use super::restitution::of_pair;
+use super::predict::Gap;
 use super::state::State;
 
 /// Bodies that touch, at the time of an impact.
@@ -48,24 +47,6 @@ pub(super) struct Member {
     pub impulse: f64,
 }
 
-/// The gap of two bodies, with the normal from the first to the partner.
-pub(super) fn gap_of(model: &Model, state: &State, pair: Pair, time: f64) -> Gap {
-    let mover = state.mover(model, pair.a);
-    match pair.partner {
-        Partner::Dynamic(other) => sphere_sphere_gap(mover, state.mover(model, other), time),
-        Partner::Static(fixture) => sphere_fixture_gap(mover, &model.fixtures[fixture as usize], time),
-    }
-}
-
-/// Product of the two Bounce values.
-pub(super) fn restitution_of(model: &Model, pair: Pair) -> f64 {
-    let other = match pair.partner {
-        Partner::Dynamic(other) => model.movers[other as usize].bounce,
-        Partner::Static(fixture) => model.fixtures[fixture as usize].bounce,
-    };
-    of_pair(model.movers[pair.a as usize].bounce, other)
-}
-
 impl Group {
     /// The group of an impact: what touches its bodies, what touches those, and so on. `also` are impacts
     /// due at the same instant; those that belong to the group are taken out of it.
@@ -75,7 +56,7 @@ impl Group {
     /// looked at.
     pub fn gather(model: &Model, state: &State, time: f64, first: Pair, also: &mut Vec<Pair>) -> Self {
         let mut pairs = vec![first];
-        let mut ids: Vec<u32> = [Some(first.a), first.other()].into_iter().flatten().collect();
+        let mut ids: Vec<u32> = first.bodies().collect();
         let again = ids.iter().any(|body| hit_just_now(model, state, *body, time));
         let mut next = 0;
         while let Some(body) = ids.get(next).copied() {
@@ -84,7 +65,7 @@ impl Group {
                 if !pairs.contains(&pair) {
                     pairs.push(pair);
                 }
-                for other in [Some(pair.a), pair.other()].into_iter().flatten() {
+                for other in pair.bodies() {
                     if !ids.contains(&other) {
                         ids.push(other);
                     }
@@ -131,7 +112,7 @@ impl Group {
             if is_plastic || worst <= SMALLEST_SHARE * largest {
                 break;
             }
-            for connected in self.connected(&closing) {
+            for connected in self.split(&closing) {
                 self.reflect(&connected);
             }
             rounds += 1;
@@ -147,17 +128,14 @@ impl Group {
         rounds > 4 + 2 * self.members.len() && self.members.iter().filter(lossy).count() > 1
     }
 
-    pub fn closing_now(&self) -> impl Iterator<Item = &Member> {
-        self.members.iter().filter(|member| self.closing(member) > self.rounding(member))
-    }
-
-    fn still_closing(&self) -> Vec<usize> {
+    /// Which of the members close now.
+    pub fn still_closing(&self) -> Vec<usize> {
         let closes = |member: &Member| self.closing(member) > self.rounding(member);
         (0..self.members.len()).filter(|k| closes(&self.members[*k])).collect()
     }
 
     /// Splits contacts into those that share moving bodies, directly or through others.
-    fn connected(&self, contacts: &[usize]) -> Vec<Vec<usize>> {
+    fn split(&self, contacts: &[usize]) -> Vec<Vec<usize>> {
         let mut sets: Vec<Vec<usize>> = Vec::new();
         for k in contacts {
             let shares = |other: &usize| self.members[*k].link.shares_body(&self.members[*other].link);
@@ -221,7 +199,7 @@ impl Group {
             stuck.extend(closing);
             stuck.sort_unstable();
             stuck.dedup();
-            for connected in self.connected(&stuck) {
+            for connected in self.split(&stuck) {
                 self.stop(&connected);
             }
         }
@@ -269,7 +247,7 @@ fn touching(
     let nearby = nearby.iter().map(|partner| Pair::new(body, *partner));
     let mut pairs: Vec<Pair> = lasting.chain(against.chain(nearby).filter(near)).collect();
     also.retain(|pair| {
-        let is_its = pair.a == body || pair.other() == Some(body);
+        let is_its = pair.bodies().any(|other| other == body);
         if is_its {
             pairs.push(*pair);
         }

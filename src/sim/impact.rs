@@ -3,9 +3,9 @@
 
 use glam::DVec3;
 
-use super::contact::{Contact, Pair, Partner};
+use super::contact::{Contact, Pair, restitution_of};
 use super::engine::{a_little_after, in_id_order, look_again, rank, record};
-use super::group::{Group, Member, hit_just_now, restitution_of};
+use super::group::{Group, Member, hit_just_now};
 use super::island::{From, part, restart};
 use super::lasting::{Settling, settle};
 use super::model::Model;
@@ -24,10 +24,10 @@ pub(super) fn resolve(
     gap: &Gap,
     also: &mut Vec<Pair>,
 ) -> Result<(), Fault> {
-    let is_lone = [Some(pair.a), pair.other()].into_iter().flatten().all(|body| {
+    let is_lone = pair.bodies().all(|body| {
         state.contacts[body as usize].is_empty()
             && state.touching[body as usize].is_empty()
-            && also.iter().all(|other| other.a != body && other.other() != Some(body))
+            && also.iter().all(|other| other.bodies().all(|other| other != body))
             && !hit_just_now(model, state, body, time)
     });
     let is_plain = !is_near_rest(model, pair, gap) && !is_in_cascade(model, state, pair, time);
@@ -38,14 +38,14 @@ pub(super) fn resolve(
     if group.members.len() == 1 && is_plain {
         return bounce(model, state, time, pair, gap);
     }
-    let closing: Vec<Pair> = group.closing_now().map(|member| member.pair).collect();
+    let closing: Vec<Pair> = group.still_closing().into_iter().map(|k| group.members[k].pair).collect();
     let cascading = note_lossy(model, state, time, &closing);
     if cascading != Cascading::No {
         // Only where it happens: the other end of a heap bounces as it would.
         let counts =
             |body: u32| f64::from(state.cascades[body as usize].length) >= model.params.collapse_count;
         for member in &mut group.members {
-            if counts(member.pair.a) || member.pair.other().is_some_and(counts) {
+            if member.pair.bodies().any(counts) {
                 member.restitution = 0.0;
             }
         }
@@ -70,9 +70,36 @@ fn is_near_rest(model: &Model, pair: Pair, gap: &Gap) -> bool {
     speed <= model.params.rest_speed || speed * speed <= 4.0 * gap.drive.abs() * rounding
 }
 
-/// Newton's law for two bodies that touch nothing else: v_n' = −e v_n.
+/// Newton's law for two bodies that touch nothing else, which then go on.
 fn bounce(model: &Model, state: &mut State, time: f64, pair: Pair, gap: &Gap) -> Result<(), Fault> {
     note_lossy(model, state, time, &[pair]);
+    let changes = exchange(model, state, time, pair, gap);
+    let start = |(body, change): (u32, DVec3)| From {
+        body,
+        x: state.position(body, time),
+        v: state.velocity(body, time) + change,
+    };
+    match changes {
+        (first, None) => {
+            let first = start(first);
+            restart(model, state, time, &[first])
+        }
+        (first, Some(second)) => {
+            let both = [start(first), start(second)];
+            restart(model, state, time, &both)
+        }
+    }
+}
+
+/// Books and lists an impact of two bodies by Newton's law, v_n' = −e v_n. Gives the changes of their
+/// velocities, of the second one if it is dynamic.
+pub(super) fn exchange(
+    model: &Model,
+    state: &mut State,
+    time: f64,
+    pair: Pair,
+    gap: &Gap,
+) -> ((u32, DVec3), Option<(u32, DVec3)>) {
     let Blow { impulse, parting, loss } =
         blow(moved_mass(model, pair), restitution_of(model, pair), -gap.rate);
     state.account.impact_losses.add(loss);
@@ -88,20 +115,8 @@ fn bounce(model: &Model, state: &mut State, time: f64, pair: Pair, gap: &Gap) ->
         ..contact_event(time, EventKind::Impact, pair, gap)
     };
     record(state, in_id_order(model, event));
-    let start = |state: &State, body: u32, change: f64| From {
-        body,
-        x: state.position(body, time),
-        v: state.velocity(body, time) + change * gap.normal,
-    };
-    let of_a = -impulse / model.movers[pair.a as usize].mass;
-    let first = start(state, pair.a, of_a);
-    match pair.other() {
-        None => restart(model, state, time, &[first]),
-        Some(other) => {
-            let second = start(state, other, impulse / model.movers[other as usize].mass);
-            restart(model, state, time, &[first, second])
-        }
-    }
+    let change = |body: u32, impulse: f64| (body, impulse / model.movers[body as usize].mass * gap.normal);
+    (change(pair.a, -impulse), pair.other().map(|other| change(other, impulse)))
 }
 
 /// An event of two bodies that exchanges no impulse, not yet numbered or in the order of their ids.
@@ -183,9 +198,7 @@ fn finish(model: &Model, state: &mut State, time: f64, mut group: Group) -> Resu
 /// Enters a lasting contact with both bodies, or what is new about an old one.
 fn make(state: &mut State, member: &Member, settling: &Settling) {
     let Some(settles_at) = settling.settles_at else { return };
-    let pair = member.pair;
-    let ends = [Some((pair.a, pair.partner)), pair.other().map(|other| (other, Partner::Dynamic(pair.a)))];
-    for (body, partner) in ends.into_iter().flatten() {
+    for (body, partner) in member.pair.ends() {
         let contacts = &mut state.contacts[body as usize];
         contacts.retain(|contact| contact.partner != partner);
         contacts.push(Contact { partner, surface: member.surface, settles_at: Some(settles_at) });
@@ -205,7 +218,7 @@ enum Cascading {
 /// Whether the next lossy impact of a pair may be one too many.
 fn is_in_cascade(model: &Model, state: &State, pair: Pair, time: f64) -> bool {
     let last = model.params.collapse_count - 1.0;
-    [Some(pair.a), pair.other()].into_iter().flatten().any(|body| {
+    pair.bodies().any(|body| {
         let cascade = &state.cascades[body as usize];
         f64::from(cascade.length) >= last && time - cascade.last_impact < model.params.contact_duration
     })

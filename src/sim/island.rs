@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::DVec3;
 
 use super::constraint::{Link, enter_none, largest_push, stay_on};
-use super::contact::{Bodies, Contact, Pair, Partner, Surface, surface_of};
+use super::contact::{Bodies, Pair, Partner, Surface, surface_of};
 use super::engine::{fault, record_contact};
 use super::model::Model;
 use super::motion::{
@@ -156,15 +156,11 @@ pub(super) fn drop_unpressed(model: &Model, state: &mut State, island: &Island, 
 /// Ends a lasting contact, and says so.
 pub(super) fn part(model: &Model, state: &mut State, pair: Pair, time: f64) {
     let mut listed = false;
-    let mut forget = |contacts: &mut Vec<Contact>, partner| {
-        contacts.retain(|contact| {
+    for (body, partner) in pair.ends() {
+        state.contacts[body as usize].retain(|contact| {
             listed |= contact.partner == partner;
             contact.partner != partner
         });
-    };
-    forget(&mut state.contacts[pair.a as usize], pair.partner);
-    if let Some(other) = pair.other() {
-        forget(&mut state.contacts[other as usize], Partner::Dynamic(pair.a));
     }
     if listed {
         record_contact(model, state, time, EventKind::LiftOff, pair);

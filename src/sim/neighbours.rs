@@ -11,9 +11,11 @@ use super::segment::Path;
 use super::state::{Scratch, State};
 use super::tiles::{TileRange, for_each_brick};
 
-/// How much larger than the body its registered box is, m: more than root finding can be off.
+/// How much larger than the body its registered box is, m: more than root finding can be off, and than bodies
+/// are apart that touch.
 fn margin(model: &Model, radius: f64, position: DVec3) -> f64 {
-    1e-6 * radius + 1e-12 * model.grid.tile_size.max_element().max(position.abs().max_element())
+    let rounding = 1e-12 * model.grid.tile_size.max_element().max(position.abs().max_element());
+    1e-6 * radius + rounding + model.params.contact_distance
 }
 
 /// Tiles of a body's box, rounded outwards.
@@ -198,12 +200,17 @@ fn collect(
     }
 }
 
-/// All that lies in the tiles of a body.
+/// All others that lie in the tiles of a body, each once, in order.
 pub(super) fn near(model: &Model, state: &State, body: u32) -> Vec<Partner> {
-    let mut scratch = Scratch::default();
-    collect(model, state, &mut scratch, body, state.registered[body as usize], None);
-    let moving = scratch.found_moving.into_iter().map(Partner::Dynamic);
-    moving.chain(scratch.found_fixed.into_iter().map(Partner::Static)).collect()
+    let mut found: Vec<Partner> = Vec::new();
+    let range = state.registered[body as usize];
+    state.moving.visit(&model.grid, range, None, |other| found.push(Partner::Dynamic(other)));
+    model.static_tiles.visit(&model.grid, range, None, |other| found.push(Partner::Static(other)));
+    found.extend(model.static_tiles.large().iter().map(|other| Partner::Static(*other)));
+    found.sort_unstable();
+    found.dedup();
+    found.retain(|partner| *partner != Partner::Dynamic(body));
+    found
 }
 
 /// Predicts the next impact of two dynamic bodies that are not in lasting contact. `from` is −∞ but where an

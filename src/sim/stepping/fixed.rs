@@ -1,11 +1,13 @@
 //! The search of the method `fixed`: overlaps of bodies that share a tile at the end of the step.
 
 use super::StepLimits;
-use super::overlap::{Hit, Partner, hit};
+use super::overlap::{Hit, hit};
 use super::step::{collide, register};
 use crate::sim::Fault;
 use crate::sim::account::present;
+use crate::sim::contact::{Pair, Partner};
 use crate::sim::model::Model;
+use crate::sim::neighbours::near;
 use crate::sim::state::State;
 
 /// The overlaps at the end of a step that are not resolved yet.
@@ -36,17 +38,17 @@ impl PairSearch {
     /// Lets the pair bounce and looks anew for what its bodies meet in the rest of the step. A body at its
     /// limit of collisions meets nothing more.
     pub fn resolve(&mut self, model: &Model, state: &mut State, hit: &Hit, end: f64) -> Result<(), Fault> {
-        collide(model, state, hit, hit.bodies())?;
-        self.hits.retain(|other| !hit.bodies().any(|body| other.involves(body)));
-        for body in hit.bodies() {
+        collide(model, state, hit, hit.pair.bodies())?;
+        self.hits.retain(|other| !hit.pair.bodies().any(|body| other.involves(body)));
+        for body in hit.pair.bodies() {
             register(model, state, body, end);
             self.collisions[body as usize] += 1;
             state.counters.given_up += u64::from(self.collisions[body as usize] == LIMIT);
         }
-        let second = hit.bodies().nth(1);
-        for body in hit.bodies() {
+        let second = hit.pair.other();
+        for body in hit.pair.bodies() {
             // the pair itself is looked at once
-            let skip = second.filter(|second| *second == body).map(|_| hit.body);
+            let skip = second.filter(|second| *second == body).map(|_| hit.pair.a);
             self.look(model, state, body, hit.time, end, |other| Some(other) != skip);
         }
         Ok(())
@@ -65,31 +67,15 @@ impl PairSearch {
         if self.collisions[body as usize] >= LIMIT {
             return;
         }
-        for partner in neighbours(model, state, body) {
-            let (a, b) = match partner {
-                Partner::Moving(other) => {
-                    if other == body || !wanted(other) || self.collisions[other as usize] >= LIMIT {
-                        continue;
-                    }
-                    (body.min(other), Partner::Moving(body.max(other)))
-                }
-                Partner::Fixed(_) => (body, partner),
-            };
-            self.hits.extend(hit(model, state, a, b, from, end));
+        for partner in near(model, state, body) {
+            if let Partner::Dynamic(other) = partner
+                && (!wanted(other) || self.collisions[other as usize] >= LIMIT)
+            {
+                continue;
+            }
+            self.hits.extend(hit(model, state, Pair::new(body, partner), from, end));
         }
     }
 }
 
 const LIMIT: u32 = StepLimits::DEFAULT.collisions;
-
-/// What lies in a body's tiles, each once.
-fn neighbours(model: &Model, state: &State, body: u32) -> Vec<Partner> {
-    let mut found: Vec<Partner> = Vec::new();
-    let range = state.registered[body as usize];
-    state.moving.visit(&model.grid, range, None, |other| found.push(Partner::Moving(other)));
-    model.static_tiles.visit(&model.grid, range, None, |other| found.push(Partner::Fixed(other)));
-    found.extend(model.static_tiles.large().iter().map(|other| Partner::Fixed(*other)));
-    found.sort_unstable();
-    found.dedup();
-    found
-}

@@ -5,10 +5,11 @@
 //! method and are kept.
 
 use super::StepLimits;
-use super::overlap::{Hit, Partner, hit};
+use super::overlap::{Hit, hit};
 use super::step::{collide, register};
 use crate::sim::account::present;
 use crate::sim::candidates::{CandidateSet, candidate_sets};
+use crate::sim::contact::{Pair, Partner};
 use crate::sim::model::Model;
 use crate::sim::state::State;
 use crate::sim::{BodyRef, Fault};
@@ -79,7 +80,7 @@ impl LocalSet {
     fn resolve(&mut self, model: &Model, state: &mut State, hit: &Hit, end: f64) -> Result<(), Fault> {
         let single = self.hits.len() == 1;
         if single {
-            collide(model, state, hit, hit.bodies())?;
+            collide(model, state, hit, hit.pair.bodies())?;
         } else {
             collide(model, state, hit, self.moving.iter().copied())?;
         }
@@ -99,13 +100,14 @@ impl LocalSet {
         for (index, &body) in self.moving.iter().enumerate() {
             for &other in &self.moving[index + 1..] {
                 if concerned(body) || concerned(other) {
-                    let (a, b) = (body.min(other), body.max(other));
-                    self.hits.extend(hit(model, state, a, Partner::Moving(b), from, end));
+                    let pair = Pair::new(body, Partner::Dynamic(other));
+                    self.hits.extend(hit(model, state, pair, from, end));
                 }
             }
             if concerned(body) {
                 for &other in &self.fixed {
-                    self.hits.extend(hit(model, state, body, Partner::Fixed(other), from, end));
+                    let pair = Pair::new(body, Partner::Static(other));
+                    self.hits.extend(hit(model, state, pair, from, end));
                 }
             }
         }
