@@ -73,8 +73,8 @@ pub(super) struct Account {
 pub(super) fn energies(model: &Model, state: &State, time: f64) -> (f64, Option<f64>) {
     let mut kinetic = Sum::default();
     let mut potential = Some(Sum::default());
-    for body in present(model) {
-        let mass = model.movers[body as usize].mass;
+    for body in model.present() {
+        let mass = model.mass(body);
         kinetic.add(0.5 * mass * state.velocity(body, time).length_squared());
         for force in &model.forces {
             match (&mut potential, force.law.potential(&subject(model, state, body, time))) {
@@ -89,8 +89,8 @@ pub(super) fn energies(model: &Model, state: &State, time: f64) -> (f64, Option<
 pub(super) fn momentum_value(model: &Model, state: &State, time: f64) -> (DVec3, f64) {
     let mut sum = VectorSum::default();
     let mut scale = Sum::default();
-    for body in present(model) {
-        let momentum = model.movers[body as usize].mass * state.velocity(body, time);
+    for body in model.present() {
+        let momentum = model.mass(body) * state.velocity(body, time);
         sum.add(momentum);
         scale.add(momentum.length());
     }
@@ -141,7 +141,7 @@ pub(super) fn energy(model: &Model, state: &State) -> Energy {
         sum.add(-account.energy_at_start);
         sum.add(account.impact_losses.value());
         sum.add(account.dissipated.value());
-        for body in present(model) {
+        for body in model.present() {
             sum.add(dissipated(model, state, body, state.now));
         }
         sum.add(-account.edit_work.value());
@@ -161,7 +161,7 @@ pub(super) fn momentum(model: &Model, state: &State) -> Momentum {
     sum.add(-account.momentum_at_start);
     sum.add(-account.impulses.value());
     sum.add(-account.force_impulse.value());
-    for body in present(model) {
+    for body in model.present() {
         sum.add(-force_impulse(model, state, body, state.now));
     }
     let turned_over = account.impulses.value().length().max(account.force_impulse.value().length());
@@ -174,21 +174,17 @@ fn relative(difference: f64, scale: f64) -> f64 {
     if difference == 0.0 { 0.0 } else { difference / scale.max(f64::MIN_POSITIVE) }
 }
 
-pub(super) fn present(model: &Model) -> impl Iterator<Item = u32> + '_ {
-    (0u32..).zip(&model.movers).filter(|(_, mover)| mover.present).map(|(body, _)| body)
-}
-
 pub(super) fn subject<'a>(model: &'a Model, state: &State, body: u32, time: f64) -> Subject<'a> {
-    let mover = &model.movers[body as usize];
+    let dynamic = model.dynamic(body);
     let (position, low) = state.path(body).position_split(time);
     Subject {
         time,
         position,
         low,
         velocity: state.velocity(body, time),
-        mass: mover.mass,
-        radius: mover.radius,
-        material: mover.material.as_deref(),
+        mass: dynamic.mass(),
+        radius: model.radius(body),
+        material: dynamic.material.as_deref(),
     }
 }
 
@@ -209,7 +205,7 @@ fn dissipated(model: &Model, state: &State, body: u32, time: f64) -> f64 {
 /// force of the surface is what the motion makes it, the change of momentum is taken.
 fn force_impulse(model: &Model, state: &State, body: u32, time: f64) -> DVec3 {
     let segment = &state.segments[body as usize];
-    let mass = model.movers[body as usize].mass;
+    let mass = model.mass(body);
     // A parabola in a field is what a stepping method makes of it, not what the field does.
     if segment.step == 0.0 && (model.is_ballistic() || time == segment.start) {
         return mass * (time - segment.start) * segment.a;

@@ -14,12 +14,15 @@
 
 use glam::DVec3;
 
+use super::body::BodyId;
 use super::constraint::{Link, enter_none};
-use super::contact::{Bodies, Pair, Partner, Surface, gap_of, restitution_of, surface_of};
+use super::contact::{Bodies, gap_of, restitution_of, surface_of};
 use super::island::Island;
 use super::model::Model;
 use super::neighbours::near;
+use super::pair::Pair;
 use super::predict::Gap;
+use super::shape::Surface;
 use super::state::State;
 
 /// Bodies that touch, at the time of an impact.
@@ -56,7 +59,7 @@ impl Group {
     /// looked at.
     pub fn gather(model: &Model, state: &State, time: f64, first: Pair, also: &mut Vec<Pair>) -> Self {
         let mut pairs = vec![first];
-        let mut ids: Vec<u32> = first.bodies().collect();
+        let mut ids: Vec<u32> = first.dynamic().collect();
         let again = ids.iter().any(|body| hit_just_now(model, state, *body, time));
         let mut next = 0;
         while let Some(body) = ids.get(next).copied() {
@@ -65,7 +68,7 @@ impl Group {
                 if !pairs.contains(&pair) {
                     pairs.push(pair);
                 }
-                for other in pair.bodies() {
+                for other in pair.dynamic() {
                     if !ids.contains(&other) {
                         ids.push(other);
                     }
@@ -124,7 +127,7 @@ impl Group {
     /// Whether pairs of moving bodies that lose energy met more often than a blow takes to run through the
     /// group and back.
     fn has_collapsed(&self, rounds: usize) -> bool {
-        let lossy = |member: &&Member| member.pair.other().is_some() && member.restitution < 1.0;
+        let lossy = |member: &&Member| member.pair.second().is_some() && member.restitution < 1.0;
         rounds > 4 + 2 * self.members.len() && self.members.iter().filter(lossy).count() > 1
     }
 
@@ -238,16 +241,17 @@ fn touching(
     state: &State,
     body: u32,
     time: f64,
-    nearby: &[Partner],
+    nearby: &[BodyId],
     also: &mut Vec<Pair>,
 ) -> Vec<Pair> {
-    let lasting = state.contacts[body as usize].iter().map(|contact| Pair::new(body, contact.partner));
-    let against = state.touching[body as usize].iter().map(|other| Pair::new(body, Partner::Dynamic(*other)));
+    let lasting = state.contacts[body as usize].iter().map(|contact| Pair::of(body, contact.other));
+    let against =
+        state.touching[body as usize].iter().map(|other| Pair::of(body, BodyId::of_dynamic(*other)));
     let near = |pair: &Pair| gap_of(model, state, *pair, time).distance <= model.params.contact_distance;
-    let nearby = nearby.iter().map(|partner| Pair::new(body, *partner));
+    let nearby = nearby.iter().map(|other| Pair::of(body, *other));
     let mut pairs: Vec<Pair> = lasting.chain(against.chain(nearby).filter(near)).collect();
     also.retain(|pair| {
-        let is_its = pair.bodies().any(|other| other == body);
+        let is_its = pair.involves(body);
         if is_its {
             pairs.push(*pair);
         }
@@ -265,13 +269,11 @@ pub(super) fn hit_just_now(model: &Model, state: &State, body: u32, time: f64) -
 pub(super) const SAME_INSTANT: f64 = 1e-3;
 
 fn member(model: &Model, state: &State, bodies: &Island, pair: Pair, time: f64) -> Member {
-    let lasting = state.contacts[pair.a as usize].iter().find(|contact| contact.partner == pair.partner);
-    let surface = match (lasting, pair.partner) {
+    let lasting = state.contact(pair);
+    let surface = match (lasting, pair.second()) {
         (Some(contact), _) => contact.surface,
-        (None, Partner::Dynamic(_)) => Surface::Round,
-        (None, Partner::Static(fixture)) => {
-            surface_of(&model.fixtures[fixture as usize], state.position(pair.a, time))
-        }
+        (None, Some(_)) => Surface::Round,
+        (None, None) => surface_of(model, pair.b, state.position(pair.first(), time)),
     };
     let at = Bodies { ids: &bodies.ids, x: &bodies.x, v: &bodies.v };
     let link = Link { limit: 0.0, ..at.link(model, pair, surface) };

@@ -3,12 +3,14 @@
 
 use glam::DVec3;
 
-use super::contact::{Contact, Pair, restitution_of};
-use super::engine::{a_little_after, in_id_order, look_again, rank, record};
+use super::contact::{Contact, restitution_of};
+use super::engine::{a_little_after, in_id_order, rank, record};
 use super::group::{Group, Member, hit_just_now};
 use super::island::{From, part, restart};
 use super::lasting::{Settling, settle};
 use super::model::Model;
+use super::neighbours::predict_pair;
+use super::pair::Pair;
 use super::predict::{Gap, touch_tolerance};
 use super::restitution::{Blow, blow, reduced_mass};
 use super::state::State;
@@ -24,10 +26,10 @@ pub(super) fn resolve(
     gap: &Gap,
     also: &mut Vec<Pair>,
 ) -> Result<(), Fault> {
-    let is_lone = pair.bodies().all(|body| {
+    let is_lone = pair.dynamic().all(|body| {
         state.contacts[body as usize].is_empty()
             && state.touching[body as usize].is_empty()
-            && also.iter().all(|other| other.bodies().all(|other| other != body))
+            && also.iter().all(|other| !other.involves(body))
             && !hit_just_now(model, state, body, time)
     });
     let is_plain = !is_near_rest(model, pair, gap) && !is_in_cascade(model, state, pair, time);
@@ -45,7 +47,7 @@ pub(super) fn resolve(
         let counts =
             |body: u32| f64::from(state.cascades[body as usize].length) >= model.params.collapse_count;
         for member in &mut group.members {
-            if member.pair.bodies().any(counts) {
+            if member.pair.dynamic().any(counts) {
                 member.restitution = 0.0;
             }
         }
@@ -57,53 +59,39 @@ pub(super) fn resolve(
     finish(model, state, time, group)
 }
 
-/// Mass that an impulse between two bodies moves, kg.
-fn moved_mass(model: &Model, pair: Pair) -> f64 {
-    let mass = model.movers[pair.a as usize].mass;
-    pair.other().map_or(mass, |other| reduced_mass(mass, model.movers[other as usize].mass))
-}
-
 /// Whether the last bounces may have come: the full rule must decide.
 fn is_near_rest(model: &Model, pair: Pair, gap: &Gap) -> bool {
     let speed = restitution_of(model, pair) * -gap.rate;
-    let rounding = touch_tolerance(gap.point, model.movers[pair.a as usize].radius);
+    let rounding = touch_tolerance(gap.point, model.radius(pair.first()));
     speed <= model.params.rest_speed || speed * speed <= 4.0 * gap.drive.abs() * rounding
 }
 
 /// Newton's law for two bodies that touch nothing else, which then go on.
 fn bounce(model: &Model, state: &mut State, time: f64, pair: Pair, gap: &Gap) -> Result<(), Fault> {
     note_lossy(model, state, time, &[pair]);
-    let changes = exchange(model, state, time, pair, gap);
-    let start = |(body, change): (u32, DVec3)| From {
+    let impulse = exchange(model, state, time, pair, gap);
+    let start = |body: u32, impulse: f64| From {
         body,
         x: state.position(body, time),
-        v: state.velocity(body, time) + change,
+        v: state.velocity(body, time) + velocity_change(model, body, impulse, gap.normal),
     };
-    match changes {
-        (first, None) => {
-            let first = start(first);
-            restart(model, state, time, &[first])
-        }
-        (first, Some(second)) => {
-            let both = [start(first), start(second)];
-            restart(model, state, time, &both)
+    let first = start(pair.first(), -impulse);
+    match pair.second() {
+        None => restart(model, state, time, &[first]),
+        Some(second) => {
+            let second = start(second, impulse);
+            restart(model, state, time, &[first, second])
         }
     }
 }
 
-/// Books and lists an impact of two bodies by Newton's law, v_n' = −e v_n. Gives the changes of their
-/// velocities, of the second one if it is dynamic.
-pub(super) fn exchange(
-    model: &Model,
-    state: &mut State,
-    time: f64,
-    pair: Pair,
-    gap: &Gap,
-) -> ((u32, DVec3), Option<(u32, DVec3)>) {
-    let Blow { impulse, parting, loss } =
-        blow(moved_mass(model, pair), restitution_of(model, pair), -gap.rate);
+/// Books and lists an impact of two bodies by Newton's law, v_n' = −e v_n. Gives the impulse on the second one
+/// along the normal, N·s; the first takes the opposite.
+pub(super) fn exchange(model: &Model, state: &mut State, time: f64, pair: Pair, gap: &Gap) -> f64 {
+    let moved = reduced_mass(model.body(pair.a).mass(), model.body(pair.b).mass());
+    let Blow { impulse, parting, loss } = blow(moved, restitution_of(model, pair), -gap.rate);
     state.account.impact_losses.add(loss);
-    if pair.other().is_none() {
+    if pair.b.is_static() {
         state.account.impulses.add(-impulse * gap.normal);
     }
     state.group += 1;
@@ -115,8 +103,12 @@ pub(super) fn exchange(
         ..contact_event(time, EventKind::Impact, pair, gap)
     };
     record(state, in_id_order(model, event));
-    let change = |body: u32, impulse: f64| (body, impulse / model.movers[body as usize].mass * gap.normal);
-    (change(pair.a, -impulse), pair.other().map(|other| change(other, impulse)))
+    impulse
+}
+
+/// What an impulse along the normal does to a dynamic body, m/s.
+pub(super) fn velocity_change(model: &Model, body: u32, impulse: f64, normal: DVec3) -> DVec3 {
+    impulse / model.mass(body) * normal
 }
 
 /// An event of two bodies that exchanges no impulse, not yet numbered or in the order of their ids.
@@ -155,7 +147,7 @@ fn finish(model: &Model, state: &mut State, time: f64, mut group: Group) -> Resu
     let settling = settle(model, &mut group);
     let mut changed: Vec<bool> = before.iter().zip(&group.bodies.v).map(|(old, new)| old != new).collect();
     for (k, member) in group.members.iter().enumerate() {
-        if member.pair.other().is_none() {
+        if member.pair.b.is_static() {
             state.account.impulses.add(-member.impulse * member.link.towards);
         }
         let made = settling.iter().find(|settling| settling.member == k);
@@ -190,7 +182,7 @@ fn finish(model: &Model, state: &mut State, time: f64, mut group: Group) -> Resu
     restart(model, state, time, &starts)?;
     // What neither needed an impulse nor lasts.
     for pair in unmoved {
-        look_again(model, state, pair, a_little_after(time), time);
+        predict_pair(model, state, pair, a_little_after(time), time);
     }
     Ok(())
 }
@@ -198,10 +190,10 @@ fn finish(model: &Model, state: &mut State, time: f64, mut group: Group) -> Resu
 /// Enters a lasting contact with both bodies, or what is new about an old one.
 fn make(state: &mut State, member: &Member, settling: &Settling) {
     let Some(settles_at) = settling.settles_at else { return };
-    for (body, partner) in member.pair.ends() {
+    for (body, other) in member.pair.ends() {
         let contacts = &mut state.contacts[body as usize];
-        contacts.retain(|contact| contact.partner != partner);
-        contacts.push(Contact { partner, surface: member.surface, settles_at: Some(settles_at) });
+        contacts.retain(|contact| contact.other != other);
+        contacts.push(Contact { other, surface: member.surface, settles_at: Some(settles_at) });
     }
 }
 
@@ -218,7 +210,7 @@ enum Cascading {
 /// Whether the next lossy impact of a pair may be one too many.
 fn is_in_cascade(model: &Model, state: &State, pair: Pair, time: f64) -> bool {
     let last = model.params.collapse_count - 1.0;
-    pair.bodies().any(|body| {
+    pair.dynamic().any(|body| {
         let cascade = &state.cascades[body as usize];
         f64::from(cascade.length) >= last && time - cascade.last_impact < model.params.contact_duration
     })
@@ -228,8 +220,7 @@ fn is_in_cascade(model: &Model, state: &State, pair: Pair, time: f64) -> bool {
 /// and a lone body comes to rest on what is fixed.
 fn note_lossy(model: &Model, state: &mut State, time: f64, pairs: &[Pair]) -> Cascading {
     let lossy = pairs.iter().filter(|pair| restitution_of(model, **pair) < 1.0);
-    let mut bodies: Vec<u32> =
-        lossy.filter_map(|pair| pair.other().map(|other| [pair.a, other])).flatten().collect();
+    let mut bodies: Vec<u32> = lossy.filter(|pair| !pair.b.is_static()).flat_map(Pair::dynamic).collect();
     // A group is one impact to each of its bodies.
     bodies.sort_unstable();
     bodies.dedup();

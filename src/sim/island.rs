@@ -6,15 +6,17 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::DVec3;
 
 use super::constraint::{Link, enter_none, largest_push, stay_on};
-use super::contact::{Bodies, Pair, Partner, Surface, surface_of};
+use super::contact::{Bodies, surface_of};
 use super::engine::{fault, record_contact};
 use super::model::Model;
 use super::motion::{
     SegmentError, Step, applied_force, begin_segment, check, coupled_step, place, step_hint, subject_at,
 };
 use super::neighbours::predict_all;
+use super::pair::Pair;
 use super::predict::PRESSURE_ROUNDING;
 use super::segment::Segment;
+use super::shape::Surface;
 use super::state::State;
 use super::{EventKind, Fault};
 
@@ -42,7 +44,7 @@ pub(super) fn connected(state: &State, bodies: impl IntoIterator<Item = u32>) ->
     let mut found: BTreeSet<u32> = waiting.iter().copied().collect();
     while let Some(body) = waiting.pop() {
         for contact in &state.contacts[body as usize] {
-            if let Partner::Dynamic(other) = contact.partner
+            if let Some(other) = contact.other.dynamic()
                 && found.insert(other)
             {
                 waiting.push(other);
@@ -70,7 +72,7 @@ impl Island {
     /// The island of some bodies, each where `from` says.
     pub fn new(model: &Model, state: &State, ids: Vec<u32>, from: impl Fn(u32) -> (DVec3, DVec3)) -> Self {
         let (x, v): (Vec<_>, Vec<_>) = ids.iter().map(|body| from(*body)).unzip();
-        let inverse_mass = ids.iter().map(|body| 1.0 / model.movers[*body as usize].mass).collect();
+        let inverse_mass = ids.iter().map(|body| model.dynamic(*body).inverse_mass()).collect();
         let contacts = contacts_of(state, &ids);
         Self { ids, x, v, contacts, inverse_mass }
     }
@@ -112,8 +114,8 @@ fn contacts_of(state: &State, ids: &[u32]) -> Vec<(Pair, Surface)> {
     let mut contacts = Vec::new();
     for body in ids {
         for contact in &state.contacts[*body as usize] {
-            let pair = Pair::new(*body, contact.partner);
-            if pair.a == *body {
+            let pair = Pair::of(*body, contact.other);
+            if pair.first() == *body {
                 contacts.push((pair, contact.surface));
             }
         }
@@ -146,8 +148,8 @@ pub(super) fn drop_unpressed(model: &Model, state: &mut State, island: &Island, 
     }
     for (body, x) in island.ids.iter().zip(&island.x) {
         for contact in &mut state.contacts[*body as usize] {
-            if let (Partner::Static(fixture), Surface::Round) = (contact.partner, contact.surface) {
-                contact.surface = surface_of(&model.fixtures[fixture as usize], *x);
+            if contact.other.is_static() && contact.surface == Surface::Round {
+                contact.surface = surface_of(model, contact.other, *x);
             }
         }
     }
@@ -156,10 +158,10 @@ pub(super) fn drop_unpressed(model: &Model, state: &mut State, island: &Island, 
 /// Ends a lasting contact, and says so.
 pub(super) fn part(model: &Model, state: &mut State, pair: Pair, time: f64) {
     let mut listed = false;
-    for (body, partner) in pair.ends() {
+    for (body, other) in pair.ends() {
         state.contacts[body as usize].retain(|contact| {
-            listed |= contact.partner == partner;
-            contact.partner != partner
+            listed |= contact.other == other;
+            contact.other != other
         });
     }
     if listed {

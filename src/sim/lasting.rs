@@ -4,28 +4,30 @@ use glam::DVec3;
 
 use super::ContactState;
 use super::constraint::{Link, enter_none, largest_push, stay_on};
-use super::contact::{Contact, Pair, Partner, Surface};
+use super::contact::Contact;
 use super::group::{Group, Member};
 use super::island::{connected, first_parting};
-use super::model::{FixtureShape, Model};
+use super::model::Model;
 use super::neighbours::first_beyond;
+use super::pair::Pair;
 use super::predict::{PRESSURE_ROUNDING, touch_tolerance};
 use super::queue::Kind;
+use super::shape::Surface;
 use super::state::State;
 
 /// Predicts when the contacts of a body settle or end on its present segment.
 pub(super) fn predict_contact_events(model: &Model, state: &mut State, body: u32, time: f64) {
     for index in 0..state.contacts[body as usize].len() {
         let contact = state.contacts[body as usize][index];
-        let pair = Pair::new(body, contact.partner);
-        if pair.a != body {
+        let pair = Pair::of(body, contact.other);
+        if pair.first() != body {
             continue;
         }
         if let Some(settled) = contact.settles_at {
-            state.predict_of(settled.max(time), [Kind::PairSettled, Kind::Settled], pair);
+            state.predict(settled.max(time), Kind::Settled, pair);
         }
         if let Some(end) = end_of_face(model, state, body, &contact, time) {
-            state.predict_of(end, [Kind::PairEnd, Kind::ContactEnd], pair);
+            state.predict(end, Kind::ContactEnd, pair);
         }
     }
     predict_parting(model, state, body);
@@ -42,31 +44,23 @@ fn predict_parting(model: &Model, state: &mut State, body: u32) {
     }
     if let Some((time, pairs)) = first_parting(model, state, &ids) {
         for pair in pairs {
-            state.predict_of(time, [Kind::PairEnd, Kind::ContactEnd], pair);
+            state.predict(time, Kind::ContactEnd, pair);
         }
     }
 }
 
-/// First time at which the body slides off the face of a plate.
+/// First time at which the body slides off the flat face of a static body.
 fn end_of_face(model: &Model, state: &State, body: u32, contact: &Contact, time: f64) -> Option<f64> {
-    let (Surface::Flat(_), Partner::Static(fixture)) = (contact.surface, contact.partner) else {
+    if contact.surface == Surface::Round || !contact.other.is_static() {
         return None;
-    };
-    let FixtureShape::Plate(plate) = &model.fixtures[fixture as usize].shape else { return None };
+    }
     let path = state.path(body);
     // A rounding beyond the edge, so that what comes next meets the edge and not the face again.
-    let beyond = touch_tolerance(path.segment.x, model.movers[body as usize].radius);
-    let sides = [
-        (plate.axis_x, plate.half_x),
-        (-plate.axis_x, plate.half_x),
-        (plate.axis_y, plate.half_y),
-        (-plate.axis_y, plate.half_y),
-    ];
+    let beyond = touch_tolerance(path.segment.x, model.radius(body));
+    let sides = model.body(contact.other).shape.convex().sides();
     sides
         .into_iter()
-        .filter_map(|(axis, half)| {
-            first_beyond(path, axis, axis.dot(plate.center) + half + beyond, 0.0, time)
-        })
+        .filter_map(|(axis, limit)| first_beyond(path, axis, limit + beyond, 0.0, time))
         .reduce(f64::min)
 }
 
@@ -119,7 +113,7 @@ fn could_last(model: &Model, group: &Group, index: usize) -> Option<Candidate> {
 const SLOWEST: f64 = 1e6;
 
 fn slack(model: &Model, group: &Group, member: &Member) -> f64 {
-    touch_tolerance(group.bodies.x[member.link.a], model.movers[member.pair.a as usize].radius)
+    touch_tolerance(group.bodies.x[member.link.a], model.radius(member.pair.first()))
 }
 
 /// Leaves those candidates whose bounces end while all the others hold.

@@ -10,9 +10,12 @@ mod report;
 mod simulation;
 
 // From scene to model.
+mod body;
 mod compile;
 mod model;
+mod pair;
 mod plan;
+mod shape;
 
 // The step, from the top down.
 mod change;

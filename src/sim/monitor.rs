@@ -3,17 +3,18 @@
 use glam::DVec3;
 
 use super::Tiling;
-use super::account::present;
-use super::model::{Identity, Model};
-use super::predict::{sphere_fixture_gap, sphere_sphere_gap};
+use super::body::{BodyId, Identity};
+use super::contact::gap_of;
+use super::model::Model;
+use super::pair::Pair;
 use super::state::State;
 use crate::scene::{Diagnostic, Severity};
 
 /// Deepest overlap at `time` of any two bodies that share a tile, m, ≥ 0.
 pub(super) fn worst_overlap(model: &Model, state: &State, time: f64) -> f64 {
     let mut worst: f64 = 0.0;
-    for_each_neighbour(model, state, |body, other| {
-        worst = worst.max(-distance(model, state, body, other, time));
+    for_each_neighbour(model, state, |pair| {
+        worst = worst.max(-gap_of(model, state, pair, time).distance);
         true
     });
     worst
@@ -22,10 +23,10 @@ pub(super) fn worst_overlap(model: &Model, state: &State, time: f64) -> f64 {
 /// Warnings about the start: what overlaps, and what lies outside the map.
 pub(super) fn start_warnings(model: &Model, state: &State) -> Vec<Diagnostic> {
     let mut warnings = Vec::new();
-    for_each_neighbour(model, state, |body, other| {
-        let depth = -distance(model, state, body, other, state.now);
+    for_each_neighbour(model, state, |pair| {
+        let depth = -gap_of(model, state, pair, state.now).distance;
         if depth > model.params.contact_distance {
-            let (a, b) = (&model.movers[body as usize].identity, other.identity(model));
+            let (a, b) = (&model.body(pair.a).identity, &model.body(pair.b).identity);
             warnings.push(warning(
                 a,
                 format!("bodies {} and {} overlap by {} m at the start", a.name, b.name, meters(depth)),
@@ -37,13 +38,13 @@ pub(super) fn start_warnings(model: &Model, state: &State) -> Vec<Diagnostic> {
     if warnings.len() >= MOST_WARNINGS {
         let more = "there may be more overlaps: only the first are listed".to_owned();
         warnings
-            .push(Diagnostic { key: None, ..warning(&model.movers[0].identity, more, "mend these first") });
+            .push(Diagnostic { key: None, ..warning(&model.dynamic(0).identity, more, "mend these first") });
     }
     let size = model.grid.tile_size * DVec3::from(model.grid.counts.map(f64::from));
-    for body in present(model) {
+    for body in model.present() {
         let at = state.position(body, state.now);
         if at.cmplt(DVec3::ZERO).any() || at.cmpgt(size).any() {
-            let identity = &model.movers[body as usize].identity;
+            let identity = &model.dynamic(body).identity;
             warnings.push(warning(
                 identity,
                 format!("body {} starts outside the map", identity.name),
@@ -71,49 +72,25 @@ fn warning(identity: &Identity, message: String, hint: &str) -> Diagnostic {
     }
 }
 
-/// The other one of a pair.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Other {
-    Moving(u32),
-    Fixed(u32),
-}
-
-impl Other {
-    fn identity(self, model: &Model) -> &Identity {
-        match self {
-            Self::Moving(index) => &model.movers[index as usize].identity,
-            Self::Fixed(index) => &model.fixtures[index as usize].identity,
-        }
-    }
-}
-
-fn distance(model: &Model, state: &State, body: u32, other: Other, time: f64) -> f64 {
-    let mover = state.mover(model, body);
-    match other {
-        Other::Moving(index) => sphere_sphere_gap(mover, state.mover(model, index), time).distance,
-        Other::Fixed(index) => sphere_fixture_gap(mover, &model.fixtures[index as usize], time).distance,
-    }
-}
-
 /// Overlaps listed at most: bodies piled on one point would give as many as there are pairs.
 const MOST_WARNINGS: usize = 200;
 
 /// Every pair that shares a tile, once, in order, until `visit` says that it has seen enough.
-fn for_each_neighbour(model: &Model, state: &State, mut visit: impl FnMut(u32, Other) -> bool) {
+fn for_each_neighbour(model: &Model, state: &State, mut visit: impl FnMut(Pair) -> bool) {
     let mut others = Vec::new();
-    for body in present(model) {
+    for body in model.present() {
         others.clear();
         let range = state.registered[body as usize];
         state.moving.visit(&model.grid, range, None, |other| {
             if other > body {
-                others.push(Other::Moving(other));
+                others.push(BodyId::of_dynamic(other));
             }
         });
-        model.static_tiles.visit(&model.grid, range, None, |other| others.push(Other::Fixed(other)));
-        others.extend(model.static_tiles.large().iter().map(|other| Other::Fixed(*other)));
+        model.static_tiles.visit(&model.grid, range, None, |other| others.push(BodyId::of_static(other)));
+        others.extend(model.static_tiles.large().iter().map(|other| BodyId::of_static(*other)));
         others.sort_unstable();
         others.dedup();
-        if !others.iter().all(|other| visit(body, *other)) {
+        if !others.iter().all(|other| visit(Pair::of(body, *other))) {
             return;
         }
     }

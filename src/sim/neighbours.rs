@@ -2,8 +2,9 @@
 
 use glam::DVec3;
 
-use super::contact::Partner;
+use super::body::BodyId;
 use super::model::Model;
+use super::pair::Pair;
 use super::predict;
 use super::queue::Kind;
 use super::roots::first_root;
@@ -27,7 +28,7 @@ fn range_at(model: &Model, radius: f64, position: DVec3) -> TileRange {
 /// Enters a body that is in no tile yet.
 pub(super) fn enter(model: &Model, state: &mut State, body: u32, time: f64) {
     let position = state.position(body, time);
-    let range = range_at(model, model.movers[body as usize].radius, position);
+    let range = range_at(model, model.radius(body), position);
     state.registered[body as usize] = range;
     state.moving.insert(&model.grid, range, body);
 }
@@ -36,7 +37,7 @@ pub(super) fn enter(model: &Model, state: &mut State, body: u32, time: f64) {
 pub(super) fn predict_all(model: &Model, state: &mut State, body: u32, time: f64) {
     let end = state.segments[body as usize].end;
     if end.is_finite() {
-        state.predict_one(end, Kind::SegmentEnd, body, 0);
+        state.predict_alone(end, Kind::SegmentEnd, body, BodyId::NONE);
     }
     predict_leaving(model, state, body, time);
     predict_core_passes(model, state, body, time);
@@ -48,7 +49,7 @@ pub(super) fn predict_all(model: &Model, state: &mut State, body: u32, time: f64
 /// Moves a body to the tiles it is in now and predicts against the bodies it finds there.
 pub(super) fn reregister(model: &Model, state: &mut State, body: u32, time: f64) {
     let old = state.registered[body as usize];
-    let new = range_at(model, model.movers[body as usize].radius, state.position(body, time));
+    let new = range_at(model, model.radius(body), state.position(body, time));
     if new != old {
         state.moving.change(&model.grid, old, new, body);
         state.registered[body as usize] = new;
@@ -64,7 +65,7 @@ fn predict_leaving(model: &Model, state: &mut State, body: u32, time: f64) {
     if low == DVec3::NEG_INFINITY && high == DVec3::INFINITY {
         return;
     }
-    let radius = model.movers[body as usize].radius;
+    let radius = model.radius(body);
     let path = state.path(body);
     let (x, v, a) = (path.position(time), path.velocity(time), path.segment.a);
     let margin = margin(model, radius, x);
@@ -91,7 +92,7 @@ fn predict_leaving(model: &Model, state: &mut State, body: u32, time: f64) {
         }
     }
     if leaving <= path.segment.end && leaving.is_finite() {
-        state.predict_one(leaving, Kind::LeaveTiles, body, 0);
+        state.predict_alone(leaving, Kind::LeaveTiles, body, BodyId::NONE);
     }
 }
 
@@ -134,7 +135,7 @@ pub(super) fn predict_core_passes(model: &Model, state: &mut State, body: u32, t
             continue;
         }
         if let Some(pass) = predict::core_pass(state.path(body), center, model.params.core_radius, time) {
-            state.predict_one(pass.max(time), Kind::CorePass, body, index);
+            state.predict_alone(pass.max(time), Kind::CorePass, body, BodyId::of_static(index));
         }
     }
 }
@@ -150,16 +151,16 @@ fn predict_neighbours(
 ) {
     let mut scratch = std::mem::take(&mut state.scratch);
     collect(model, state, &mut scratch, body, range, known);
-    let mover = state.mover(model, body);
+    let ball = state.ball(model, body);
     let looked_at = scratch.found_moving.len();
     let near = model.params.contact_distance;
-    scratch.found_moving.retain(|other| !predict::surely_pass(mover, state.mover(model, *other), near));
+    scratch.found_moving.retain(|other| !predict::surely_pass(ball, state.ball(model, *other), near));
     state.counters.pair_tests += (looked_at - scratch.found_moving.len()) as u64;
     for other in &scratch.found_moving {
-        predict_pair(model, state, body, *other, f64::NEG_INFINITY, time);
+        predict_pair(model, state, Pair::of(body, BodyId::of_dynamic(*other)), f64::NEG_INFINITY, time);
     }
-    for fixture in &scratch.found_fixed {
-        predict_fixture(model, state, body, *fixture, f64::NEG_INFINITY, time);
+    for other in &scratch.found_fixed {
+        predict_pair(model, state, Pair::of(body, BodyId::of_static(*other)), f64::NEG_INFINITY, time);
     }
     state.scratch = scratch;
 }
@@ -173,7 +174,7 @@ fn collect(
     range: TileRange,
     known: Option<TileRange>,
 ) {
-    scratch.begin(state.segments.len(), model.fixtures.len());
+    scratch.begin(state.segments.len(), model.bodies.static_len());
     let epoch = scratch.epoch;
     scratch.seen_moving[body as usize] = epoch;
     let Scratch { seen_moving, seen_fixed, found_moving, found_fixed, .. } = scratch;
@@ -201,32 +202,34 @@ fn collect(
 }
 
 /// All others that lie in the tiles of a body, each once, in order.
-pub(super) fn near(model: &Model, state: &State, body: u32) -> Vec<Partner> {
-    let mut found: Vec<Partner> = Vec::new();
+pub(super) fn near(model: &Model, state: &State, body: u32) -> Vec<BodyId> {
+    let mut found: Vec<BodyId> = Vec::new();
     let range = state.registered[body as usize];
-    state.moving.visit(&model.grid, range, None, |other| found.push(Partner::Dynamic(other)));
-    model.static_tiles.visit(&model.grid, range, None, |other| found.push(Partner::Static(other)));
-    found.extend(model.static_tiles.large().iter().map(|other| Partner::Static(*other)));
+    state.moving.visit(&model.grid, range, None, |other| found.push(BodyId::of_dynamic(other)));
+    model.static_tiles.visit(&model.grid, range, None, |other| found.push(BodyId::of_static(other)));
+    found.extend(model.static_tiles.large().iter().map(|other| BodyId::of_static(*other)));
     found.sort_unstable();
     found.dedup();
-    found.retain(|partner| *partner != Partner::Dynamic(body));
+    found.retain(|other| *other != BodyId::of_dynamic(body));
     found
 }
 
-/// Predicts the next impact of two dynamic bodies that are not in lasting contact. `from` is −∞ but where an
-/// earlier search gave up.
-pub(super) fn predict_pair(model: &Model, state: &mut State, a: u32, b: u32, from: f64, time: f64) {
-    // The order of the two must not matter to the last bit.
-    let (a, b) = (a.min(b), a.max(b));
-    if !state.contacts[a as usize].is_empty() && state.is_in_contact(a, Partner::Dynamic(b)) {
+/// Predicts the next impact of two bodies that are not in lasting contact. `from` is −∞ but where an earlier
+/// search gave up.
+pub(super) fn predict_pair(model: &Model, state: &mut State, pair: Pair, from: f64, time: f64) {
+    let body = pair.first();
+    if !state.contacts[body as usize].is_empty() && state.contact(pair).is_some() {
         return;
     }
     state.counters.pair_tests += 1;
-    if lies_against(model, state, a, b, time) {
-        state.note_touching(a, b);
+    if let Some(other) = pair.second()
+        && lies_against(model, state, body, other, time)
+    {
+        state.note_touching(body, other);
     }
-    if let Some(impact) = predict::sphere_sphere(state.mover(model, a), state.mover(model, b), from) {
-        state.predict_pair(impact.max(time), Kind::Impact, a, b);
+    let impact = predict::first_contact(state.ball(model, body), state.target(model, pair.b), from);
+    if let Some(impact) = impact {
+        state.predict(impact.max(time), Kind::Impact, pair);
     }
 }
 
@@ -235,31 +238,12 @@ pub(super) fn predict_pair(model: &Model, state: &mut State, a: u32, b: u32, fro
 fn lies_against(model: &Model, state: &State, a: u32, b: u32, time: f64) -> bool {
     let params = &model.params;
     let apart = state.position(b, time) - state.position(a, time);
-    let reach = model.movers[a as usize].radius + model.movers[b as usize].radius + params.contact_distance;
+    let reach = model.radius(a) + model.radius(b) + params.contact_distance;
     if apart.length_squared() > reach * reach {
         return false;
     }
     let rate = apart.dot(state.velocity(b, time) - state.velocity(a, time));
     rate.abs() * params.contact_duration <= params.contact_distance * apart.length()
-}
-
-/// Predicts the next impact of a dynamic body with a static one it is not in lasting contact with.
-pub(super) fn predict_fixture(
-    model: &Model,
-    state: &mut State,
-    body: u32,
-    fixture: u32,
-    from: f64,
-    time: f64,
-) {
-    if !state.contacts[body as usize].is_empty() && state.is_in_contact(body, Partner::Static(fixture)) {
-        return;
-    }
-    state.counters.pair_tests += 1;
-    let impact = predict::sphere_fixture(state.mover(model, body), &model.fixtures[fixture as usize], from);
-    if let Some(impact) = impact {
-        state.predict_one(impact.max(time), Kind::FixtureImpact, body, fixture);
-    }
 }
 
 impl Scratch {

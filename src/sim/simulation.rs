@@ -4,12 +4,13 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::account::{self, present, subject};
+use super::account::{self, subject};
+use super::body::{BodyId, Identity};
 use super::candidates::{CandidateSet, candidate_sets};
 use super::compile::compile;
 use super::force::Force;
 use super::lasting::contact_state;
-use super::model::{Identity, Model};
+use super::model::Model;
 use super::motion::applied_force;
 use super::neighbours::enter;
 use super::state::State;
@@ -157,17 +158,17 @@ impl Simulation {
 
     /// Dynamic bodies that are there now.
     pub fn dynamic_count(&self) -> usize {
-        present(&self.model).count()
+        self.model.present().count()
     }
 
     /// Static bodies that are there now.
     pub fn static_count(&self) -> usize {
-        self.model.fixtures.iter().filter(|fixture| fixture.present).count()
+        self.model.bodies.present_statics().count()
     }
 
     /// All dynamic bodies that are there now, in UserID order; those added while running come last.
     pub fn dynamic_bodies(&self) -> impl Iterator<Item = BodyRef> + '_ {
-        present(&self.model).map(BodyRef::Dynamic)
+        self.model.present().map(BodyRef::Dynamic)
     }
 
     /// State of a dynamic body now; `None` for a static or removed one.
@@ -201,12 +202,12 @@ impl Simulation {
 
     /// Mass in kg of a dynamic body; `None` for others.
     pub fn mass(&self, body: BodyRef) -> Option<f64> {
-        self.dynamic_index(body).map(|index| self.model.movers[index as usize].mass)
+        self.dynamic_index(body).map(|index| self.model.mass(index))
     }
 
     /// The body of a document key, if it is there now.
     pub fn find(&self, key: NodeKey) -> Option<BodyRef> {
-        change::find(&self.model, key)
+        change::find(&self.model, key).map(BodyId::to_ref)
     }
 
     pub fn energy(&self) -> Energy {
@@ -289,21 +290,12 @@ impl Simulation {
     }
 
     fn dynamic_index(&self, body: BodyRef) -> Option<u32> {
-        match body {
-            BodyRef::Dynamic(index) if self.model.movers.get(index as usize).is_some_and(|m| m.present) => {
-                Some(index)
-            }
-            _ => None,
-        }
+        let id = BodyId::from_ref(body);
+        id.dynamic().filter(|_| self.model.bodies.find(id).is_some_and(|body| body.present))
     }
 
     fn identity(&self, body: BodyRef) -> Option<&Identity> {
-        match body {
-            BodyRef::Dynamic(index) => self.model.movers.get(index as usize).map(|mover| &*mover.identity),
-            BodyRef::Static(index) => {
-                self.model.fixtures.get(index as usize).map(|fixture| &*fixture.identity)
-            }
-        }
+        self.model.bodies.find(BodyId::from_ref(body)).map(|body| &*body.identity)
     }
 }
 

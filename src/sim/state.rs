@@ -5,13 +5,16 @@ use std::collections::{BTreeMap, VecDeque};
 use glam::DVec3;
 
 use super::account::Account;
+use super::body::BodyId;
 use super::compile::Start;
-use super::contact::{Contact, Pair, Partner};
+use super::contact::Contact;
 use super::model::Model;
 use super::motion::Plunge;
-use super::predict::Mover;
+use super::pair::Pair;
+use super::predict::{Ball, Target};
 use super::queue::{Kind, Predicted, Queue};
 use super::segment::{Path, Segment, Series};
+use super::shape::Shape;
 use super::stepping::OpenStep;
 use super::tiles::{MovingTiles, TileRange};
 use super::{Counters, Event};
@@ -126,8 +129,31 @@ impl State {
         Path { segment, series }
     }
 
-    pub fn mover<'a>(&'a self, model: &Model, body: u32) -> Mover<'a> {
-        Mover { path: self.path(body), radius: model.radii[body as usize] }
+    /// The motion of any body.
+    pub fn path_of<'a>(&'a self, model: &'a Model, id: BodyId) -> Path<'a> {
+        match id.dynamic() {
+            Some(body) => self.path(body),
+            None => Path { segment: model.bodies.place(id.index()), series: None },
+        }
+    }
+
+    /// A dynamic body as prediction sees it.
+    pub fn ball<'a>(&'a self, model: &Model, body: u32) -> Ball<'a> {
+        Ball { path: self.path(body), radius: model.radius(body) }
+    }
+
+    /// Any body as prediction sees it.
+    pub fn target<'a>(&'a self, model: &'a Model, id: BodyId) -> Target<'a> {
+        if let Some(body) = id.dynamic() {
+            return Target::Dynamic(self.ball(model, body));
+        }
+        let path = self.path_of(model, id);
+        match &model.body(id).shape {
+            Shape::Sphere(sphere) => Target::Sphere(Ball { path, radius: sphere.radius }),
+            Shape::Plate(plate) => Target::Plate(plate),
+            #[allow(unreachable_patterns, reason = "all shapes so far have closed forms")]
+            other => Target::Convex(other.convex(), path.segment.x),
+        }
     }
 
     pub fn motion_bytes(&self) -> usize {
@@ -145,33 +171,25 @@ impl State {
     /// Whether a prediction was made for the segments that its bodies still follow.
     pub fn holds(&self, predicted: &Predicted) -> bool {
         self.stamps[predicted.a as usize] == predicted.stamp_a
-            && (!predicted.kind.is_of_pair() || self.stamps[predicted.b as usize] == predicted.stamp_b)
+            && predicted.b.dynamic().is_none_or(|b| self.stamps[b as usize] == predicted.stamp_b)
     }
 
-    /// A prediction for one body (and perhaps something that does not move).
-    pub fn predict_one(&mut self, time: f64, kind: Kind, a: u32, b: u32) {
-        let stamp_a = self.stamps[a as usize];
-        self.queue.push(Predicted { time, kind, a, b, stamp_a, stamp_b: 0 });
+    /// A prediction for one body and what is no dynamic body.
+    pub fn predict_alone(&mut self, time: f64, kind: Kind, body: u32, b: BodyId) {
+        let stamp_a = self.stamps[body as usize];
+        self.queue.push(Predicted { time, kind, a: body, b, stamp_a, stamp_b: 0 });
     }
 
-    /// A prediction for two dynamic bodies.
-    pub fn predict_pair(&mut self, time: f64, kind: Kind, a: u32, b: u32) {
-        let (a, b) = (a.min(b), a.max(b));
-        let (stamp_a, stamp_b) = (self.stamps[a as usize], self.stamps[b as usize]);
-        self.queue.push(Predicted { time, kind, a, b, stamp_a, stamp_b });
+    /// A prediction for two bodies.
+    pub fn predict(&mut self, time: f64, kind: Kind, pair: Pair) {
+        let stamp_a = self.stamps[pair.first() as usize];
+        let stamp_b = pair.second().map_or(0, |b| self.stamps[b as usize]);
+        self.queue.push(Predicted { time, kind, a: pair.first(), b: pair.b, stamp_a, stamp_b });
     }
 
-    /// A prediction for the bodies of a pair: `kinds` are for a dynamic and a static partner.
-    pub fn predict_of(&mut self, time: f64, kinds: [Kind; 2], pair: Pair) {
-        match pair.partner {
-            Partner::Dynamic(other) => self.predict_pair(time, kinds[0], pair.a, other),
-            Partner::Static(fixture) => self.predict_one(time, kinds[1], pair.a, fixture),
-        }
-    }
-
-    /// Whether a body is in lasting contact with a partner.
-    pub fn is_in_contact(&self, body: u32, partner: Partner) -> bool {
-        self.contacts[body as usize].iter().any(|contact| contact.partner == partner)
+    /// The lasting contact of a pair.
+    pub fn contact(&self, pair: Pair) -> Option<&Contact> {
+        self.contacts[pair.first() as usize].iter().find(|contact| contact.other == pair.b)
     }
 
     /// Notes that two dynamic bodies lie against each other.

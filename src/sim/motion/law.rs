@@ -161,14 +161,14 @@ pub(in crate::sim) fn subject_at(
     position: DVec3,
     velocity: DVec3,
 ) -> Subject<'_> {
-    let mover = &model.movers[body as usize];
+    let dynamic = model.dynamic(body);
     Subject {
         time,
         position,
         low: DVec3::ZERO,
         velocity,
-        mass: mover.mass,
-        radius: mover.radius,
-        material: mover.material.as_deref(),
+        mass: dynamic.mass(),
+        radius: model.radius(body),
+        material: dynamic.material.as_deref(),
     }
 }

@@ -5,7 +5,7 @@
 //! Stepping to the first root of the right side never passes a contact, however thin the body or long the
 //! step, and converges like Newton's method from the side that does not penetrate.
 
-use super::Gap;
+use super::gap::Gap;
 use crate::sim::roots::first_root;
 
 /// Steps before the search hands back the time it has reached, to be looked at again from there.

@@ -1,8 +1,10 @@
 //! Overlaps at the end of a trial step, and when they began.
 
 use super::StepLimits;
-use crate::sim::contact::{Pair, Partner, gap_of};
-use crate::sim::model::{FixtureShape, Model};
+use crate::sim::contact::gap_of;
+use crate::sim::model::Model;
+use crate::sim::pair::Pair;
+use crate::sim::shape::Shape;
 use crate::sim::state::State;
 
 /// A pair that overlaps at the end of its trial step.
@@ -20,7 +22,7 @@ impl Hit {
     }
 
     pub fn involves(&self, body: u32) -> bool {
-        self.pair.bodies().any(|other| other == body)
+        self.pair.involves(body)
     }
 }
 
@@ -41,21 +43,13 @@ pub(super) fn hit(model: &Model, state: &mut State, pair: Pair, from: f64, to: f
 
 /// Whether two bodies overlap: the test that is made most.
 fn overlaps(model: &Model, state: &State, pair: Pair, time: f64) -> bool {
-    let within = |other: glam::DVec3, reach: f64| {
-        (other - state.position(pair.a, time)).length_squared() < reach * reach
-    };
-    let radius = model.movers[pair.a as usize].radius;
-    match pair.partner {
-        Partner::Dynamic(other) => {
-            within(state.position(other, time), radius + model.movers[other as usize].radius)
+    match &model.body(pair.b).shape {
+        Shape::Sphere(other) => {
+            let at = state.position(pair.first(), time);
+            let reach = model.radius(pair.first()) + other.radius;
+            (state.path_of(model, pair.b).position(time) - at).length_squared() < reach * reach
         }
-        Partner::Static(index) => {
-            let fixture = &model.fixtures[index as usize];
-            match &fixture.shape {
-                FixtureShape::Sphere { radius: fixed } => within(fixture.position, radius + fixed),
-                FixtureShape::Plate(_) => gap_of(model, state, pair, time).distance < 0.0,
-            }
-        }
+        _ => gap_of(model, state, pair, time).distance < 0.0,
     }
 }
 
@@ -64,7 +58,7 @@ fn bisect(model: &Model, state: &State, pair: Pair, from: f64, to: f64) -> f64 {
     let limits = StepLimits::DEFAULT;
     let moved = |low: f64, high: f64| {
         let way = |of: u32| (state.position(of, high) - state.position(of, low)).length();
-        pair.bodies().map(way).fold(0.0, f64::max)
+        pair.dynamic().map(way).fold(0.0, f64::max)
     };
     let (mut low, mut high) = (from, to);
     for _ in 0..limits.halvings {

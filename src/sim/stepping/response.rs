@@ -4,7 +4,7 @@ use super::overlap::Hit;
 use super::trial;
 use crate::sim::Fault;
 use crate::sim::contact::gap_of;
-use crate::sim::impact::exchange;
+use crate::sim::impact::{exchange, velocity_change};
 use crate::sim::model::Model;
 use crate::sim::state::State;
 
@@ -15,8 +15,9 @@ pub(super) fn respond(model: &Model, state: &mut State, hit: &Hit) -> Result<(),
     if gap.rate >= 0.0 {
         return Ok(());
     }
-    let (first, second) = exchange(model, state, hit.time, hit.pair, &gap);
-    for (body, change) in [Some(first), second].into_iter().flatten() {
+    let impulse = exchange(model, state, hit.time, hit.pair, &gap);
+    for (body, impulse) in hit.pair.dynamic().zip([-impulse, impulse]) {
+        let change = velocity_change(model, body, impulse, gap.normal);
         let (x, v) = (state.position(body, hit.time), state.velocity(body, hit.time));
         trial::begin(model, state, body, hit.time, x, v + change)?;
     }

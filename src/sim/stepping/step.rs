@@ -4,7 +4,6 @@ use super::fixed::PairSearch;
 use super::overlap::Hit;
 use super::thesis::SetSearch;
 use super::{response, trial};
-use crate::sim::account::present;
 use crate::sim::model::Model;
 use crate::sim::state::State;
 use crate::sim::{Fault, Method};
@@ -83,7 +82,7 @@ impl Search {
 
 /// Makes all motion up to the end of the Δt real.
 fn close(model: &Model, state: &mut State, end: f64) -> Result<(), Fault> {
-    for body in present(model) {
+    for body in model.present() {
         trial::move_to(model, state, body, end)?;
         register(model, state, body, end);
     }
@@ -95,7 +94,7 @@ fn close(model: &Model, state: &mut State, end: f64) -> Result<(), Fault> {
 pub(in crate::sim) fn begin_all(model: &Model, state: &mut State) -> Result<(), Fault> {
     state.step = None;
     let time = state.now;
-    for body in present(model) {
+    for body in model.present() {
         let (x, v) = (state.position(body, time), state.velocity(body, time));
         trial::begin(model, state, body, time, x, v)?;
         register(model, state, body, time);
@@ -105,7 +104,7 @@ pub(in crate::sim) fn begin_all(model: &Model, state: &mut State) -> Result<(), 
 
 /// Moves a body to the tiles of its box at `time`.
 pub(super) fn register(model: &Model, state: &mut State, body: u32, time: f64) {
-    let (position, radius) = (state.position(body, time), model.movers[body as usize].radius);
+    let (position, radius) = (state.position(body, time), model.radius(body));
     let new = model.grid.range(position - radius, position + radius);
     let old = state.registered[body as usize];
     if new != old {

@@ -7,10 +7,10 @@
 use super::StepLimits;
 use super::overlap::{Hit, hit};
 use super::step::{collide, register};
-use crate::sim::account::present;
+use crate::sim::body::BodyId;
 use crate::sim::candidates::{CandidateSet, candidate_sets};
-use crate::sim::contact::{Pair, Partner};
 use crate::sim::model::Model;
+use crate::sim::pair::Pair;
 use crate::sim::state::State;
 use crate::sim::{BodyRef, Fault};
 
@@ -33,7 +33,7 @@ struct LocalSet {
 impl SetSearch {
     /// Registers all bodies where their trial step ends, and looks for overlaps there.
     pub fn begin(model: &Model, state: &mut State, end: f64) -> Self {
-        for body in present(model) {
+        for body in model.present() {
             register(model, state, body, end);
         }
         let found = candidate_sets(model, state);
@@ -80,7 +80,7 @@ impl LocalSet {
     fn resolve(&mut self, model: &Model, state: &mut State, hit: &Hit, end: f64) -> Result<(), Fault> {
         let single = self.hits.len() == 1;
         if single {
-            collide(model, state, hit, hit.pair.bodies())?;
+            collide(model, state, hit, hit.pair.dynamic())?;
         } else {
             collide(model, state, hit, self.moving.iter().copied())?;
         }
@@ -100,13 +100,13 @@ impl LocalSet {
         for (index, &body) in self.moving.iter().enumerate() {
             for &other in &self.moving[index + 1..] {
                 if concerned(body) || concerned(other) {
-                    let pair = Pair::new(body, Partner::Dynamic(other));
+                    let pair = Pair::of(body, BodyId::of_dynamic(other));
                     self.hits.extend(hit(model, state, pair, from, end));
                 }
             }
             if concerned(body) {
                 for &other in &self.fixed {
-                    let pair = Pair::new(body, Partner::Static(other));
+                    let pair = Pair::of(body, BodyId::of_static(other));
                     self.hits.extend(hit(model, state, pair, from, end));
                 }
             }
