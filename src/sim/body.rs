@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::BodyRef;
+use super::event::BodyRef;
 use super::segment::Segment;
 use super::shape::Shape;
 
@@ -116,6 +116,15 @@ impl Body {
     pub fn set_mass(&mut self, mass: f64) {
         (self.mass, self.inverse_mass) = (mass, 1.0 / mass);
     }
+}
+
+/// Where a body starts; a static one stays there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Origin {
+    /// m.
+    pub position: DVec3,
+    /// m/s.
+    pub velocity: DVec3,
 }
 
 /// The table of all bodies.

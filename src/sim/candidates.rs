@@ -7,7 +7,7 @@
 
 use std::collections::BTreeSet;
 
-use super::BodyRef;
+use super::event::BodyRef;
 use super::model::Model;
 use super::state::State;
 

@@ -5,19 +5,21 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::account::{book_segment, energies, momentum_value};
 use super::body::BodyId;
+use super::books::{book_segment, energies, momentum_value};
 use super::compile::{check_force, compile_body};
-use super::engine::record;
+use super::drive::begin_all;
+use super::edit::{EditRefused, SimEdit};
+use super::event::{BodyRef, Event, EventKind};
+use super::fault::Fault;
 use super::force::{Force, ForceEntry, Law};
-use super::method::begin_all;
+use super::ledger::record;
 use super::model::Model;
 use super::neighbours::enter;
 use super::plan::plan_of;
 use super::segment::Segment;
 use super::state::State;
 use super::tiles::StaticTiles;
-use super::{BodyRef, EditRefused, Event, EventKind, Fault, SimEdit};
 use crate::scene::{Body, NodeKey};
 
 /// Applies an edit at `state.now`. Refused, it may leave both half changed: give it copies.
@@ -124,8 +126,8 @@ fn add_body(model: &mut Model, state: &mut State, body: &Body) -> Result<BodyId,
         return Err(EditRefused(format!("body {} is there already", body.label)));
     }
     let order = model.bodies.iter().filter(|(_, other)| other.identity.id == body.id).count() as u32;
-    let (compiled, start) = compile_body(body, order).map_err(|problem| EditRefused(problem.message))?;
-    let id = model.bodies.push(compiled, start.position);
+    let (compiled, origin) = compile_body(body, order).map_err(|problem| EditRefused(problem.message))?;
+    let id = model.bodies.push(compiled, origin.position);
     let Some(index) = id.dynamic() else {
         remake_static_tiles(model);
         return Ok(id);
@@ -136,7 +138,7 @@ fn add_body(model: &mut Model, state: &mut State, body: &Body) -> Result<BodyId,
             body.label
         )));
     }
-    let row = state.push_body(start);
+    let row = state.push_body(origin);
     debug_assert_eq!(row, index, "every dynamic body has its row in all columns");
     enter(model, state, index, state.now);
     Ok(id)
@@ -170,11 +172,11 @@ fn change_static(model: &mut Model, state: &mut State, body: &Body) -> Result<Bo
         return Err(EditRefused(format!("body {} is no static body of the run", body.label)));
     };
     let order = model.body(id).identity.order;
-    let (compiled, start) = compile_body(body, order).map_err(|problem| EditRefused(problem.message))?;
+    let (compiled, origin) = compile_body(body, order).map_err(|problem| EditRefused(problem.message))?;
     if !compiled.is_static() {
         return Err(EditRefused("a static body can't become dynamic while running".into()));
     }
-    model.bodies.replace_static(id.index(), compiled, start.position);
+    model.bodies.replace_static(id.index(), compiled, origin.position);
     remake_static_tiles(model);
     drop_contacts_with(state, id);
     Ok(id)

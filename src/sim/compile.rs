@@ -4,39 +4,31 @@ use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
 
-use super::Method;
-use super::body::{Bodies, Body, Identity};
+use super::body::{Bodies, Body, Identity, Origin};
 use super::force::{ForceEntry, Law};
+use super::method::Method;
 use super::model::Model;
 use super::plan::plan_of;
+use super::report::Plan;
 use super::shape::{self, Plate, Sphere};
 use super::tiles::{Grid, StaticTiles};
 use crate::scene::{self, Diagnostic, Force, ForceKind, Motion, Scene, Severity, Shape, rotation_matrix};
 
-/// Where a body starts; a static one stays there.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Start {
-    /// m.
-    pub position: DVec3,
-    /// m/s.
-    pub velocity: DVec3,
-}
-
 /// The model, and where its dynamic bodies start (same order).
-pub(super) fn compile(scene: &Scene, method: Method) -> Result<(Model, Vec<Start>), Vec<Diagnostic>> {
+pub(super) fn compile(scene: &Scene, method: Method) -> Result<(Model, Vec<Origin>), Vec<Diagnostic>> {
     let mut sorted: Vec<&scene::Body> = scene.bodies.iter().collect();
     // Stable: bodies of the same id stay in file order.
     sorted.sort_by_key(|body| body.id);
     let mut bodies = Bodies::default();
-    let mut starts = Vec::new();
+    let mut origins = Vec::new();
     let mut problems = check_world(scene);
     let mut order = 0;
     for (index, body) in sorted.iter().enumerate() {
         order = if index > 0 && sorted[index - 1].id == body.id { order + 1 } else { 0 };
         match compile_body(body, order) {
-            Ok((body, start)) => {
-                if !bodies.push(body, start.position).is_static() {
-                    starts.push(start);
+            Ok((body, origin)) => {
+                if !bodies.push(body, origin.position).is_static() {
+                    origins.push(origin);
                 }
             }
             Err(problem) => problems.push(problem),
@@ -60,15 +52,15 @@ pub(super) fn compile(scene: &Scene, method: Method) -> Result<(Model, Vec<Start
         forces,
         grid,
         static_tiles,
-        plan: super::Plan::default(),
+        plan: Plan::default(),
         start_warnings: Vec::new(),
     };
     model.plan = plan_of(&model);
-    Ok((model, starts))
+    Ok((model, origins))
 }
 
 /// One body of a model. `order` is its place among those of its id.
-pub(super) fn compile_body(body: &scene::Body, order: u32) -> Result<(Body, Start), Diagnostic> {
+pub(super) fn compile_body(body: &scene::Body, order: u32) -> Result<(Body, Origin), Diagnostic> {
     check_numbers(body)?;
     let (mass, velocity) = match body.motion {
         Motion::Dynamic { mass, velocity } => (mass, velocity),
@@ -78,7 +70,7 @@ pub(super) fn compile_body(body: &scene::Body, order: u32) -> Result<(Body, Star
     let (label, name) = (Arc::from(body.label.as_str()), Arc::from(body.display_name()));
     let identity = Identity { key: body.key, id: body.id, label, name, order };
     let compiled = Body::new(identity, mass, body.bounce, shape, body.material.as_deref());
-    Ok((compiled, Start { position: body.position, velocity }))
+    Ok((compiled, Origin { position: body.position, velocity }))
 }
 
 fn compile_shape(body: &scene::Body) -> Result<shape::Shape, Diagnostic> {

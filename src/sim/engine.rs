@@ -1,18 +1,22 @@
 //! The step: one predicted event after the other. [`advance`] is its table of contents.
 
 use super::body::BodyId;
-use super::contact::gap_of;
+use super::event::{Event, EventKind};
+use super::fault::Fault;
+use super::force::Law;
+use super::geometry::gap_of;
 use super::group::SAME_INSTANT;
-use super::impact::{self, contact_event};
-use super::island::{From, part, restart};
+use super::impact;
+use super::island::part;
+use super::ledger::{record, record_contact};
 use super::model::Model;
-use super::motion::{SegmentError, turn_back};
-use super::neighbours::{predict_core_passes, predict_pair, reregister};
+use super::motion::turn_back;
+use super::neighbours::{a_little_after, predict_core_passes, predict_pair, reregister};
 use super::pair::Pair;
 use super::predict::{self, Gap};
 use super::queue::{Kind, Predicted};
+use super::restart::{Start, restart};
 use super::state::State;
-use super::{BodyRef, Event, EventKind, Fault};
 
 /// Carries out the next predicted event that is not after `state.until`; false when there is none.
 /// What it has to report is left in the outbox.
@@ -48,10 +52,10 @@ fn tidy(state: &mut State) {
 
 /// Begins segments for all bodies at `state.now` and predicts everything: any of them may be concerned.
 pub(super) fn begin_all(model: &Model, state: &mut State) -> Result<(), Fault> {
-    let starts: Vec<From> = model
+    let starts: Vec<Start> = model
         .present()
         .map(|body| (body, state.segments[body as usize]))
-        .map(|(body, segment)| From { body, x: segment.x, v: segment.v })
+        .map(|(body, segment)| Start { body, x: segment.x, v: segment.v })
         .collect();
     restart(model, state, state.now, &starts)
 }
@@ -62,8 +66,8 @@ fn go_on(model: &Model, state: &mut State, body: u32, time: f64) -> Result<(), F
 }
 
 /// Where a body is on its segment.
-fn from_now(state: &State, body: u32, time: f64) -> From {
-    From { body, x: state.position(body, time), v: state.velocity(body, time) }
+fn from_now(state: &State, body: u32, time: f64) -> Start {
+    Start { body, x: state.position(body, time), v: state.velocity(body, time) }
 }
 
 /// Two bodies are due to touch.
@@ -111,13 +115,6 @@ fn reach(model: &Model, pair: Pair) -> f64 {
     pair.dynamic().map(|body| model.radius(body)).fold(0.0, f64::max)
 }
 
-/// Where to go on looking after a prediction that led to nothing: the same time would only give the same
-/// answer.
-pub(super) fn a_little_after(time: f64) -> f64 {
-    const LATER: f64 = 1e-9;
-    time + LATER.max(4.0 * f64::EPSILON * time)
-}
-
 /// Whether surfaces are as near as a found root leaves them: a search that gave up is farther off. A root
 /// is known to the rounding of the time, in which they come nearer by |ḋ| times that.
 fn is_closed(gap: &Gap, radius: f64, time: f64) -> bool {
@@ -131,7 +128,7 @@ fn is_closed(gap: &Gap, radius: f64, time: f64) -> bool {
 fn pass_core(model: &Model, state: &mut State, next: &Predicted) -> Result<(), Fault> {
     let (body, time) = (next.a, next.time);
     let (x, v) = (state.position(body, time), state.velocity(body, time));
-    let super::force::Law::Point { center, .. } = model.forces[next.b.index() as usize].law else {
+    let Law::Point { center, .. } = model.forces[next.b.index() as usize].law else {
         return Ok(());
     };
     if (center - x).length() > 2.0 * model.params.core_radius {
@@ -146,8 +143,8 @@ fn pass_core(model: &Model, state: &mut State, next: &Predicted) -> Result<(), F
     let turned = if turn_back(model, state, body, time) { -v } else { v - 2.0 * speed * inward };
     let mass = model.mass(body);
     state.account.impulses.add(mass * (turned - v));
-    record(state, Event::of_one(time, EventKind::SingularPass, BodyRef::Dynamic(body), x));
-    restart(model, state, time, &[From { body, x, v: turned }])
+    record(state, Event::of_one(time, EventKind::SingularPass, BodyId::of_dynamic(body).to_ref(), x));
+    restart(model, state, time, &[Start { body, x, v: turned }])
 }
 
 /// The limit time of the bounces of two bodies has come.
@@ -172,60 +169,6 @@ fn settled(model: &Model, state: &mut State, next: &Predicted) {
 fn leave_contact(model: &Model, state: &mut State, next: &Predicted) -> Result<(), Fault> {
     let (pair, time) = (next.pair(), next.time);
     part(model, state, pair, time);
-    let starts: Vec<From> = pair.dynamic().map(|body| from_now(state, body, time)).collect();
+    let starts: Vec<Start> = pair.dynamic().map(|body| from_now(state, body, time)).collect();
     restart(model, state, time, &starts)
-}
-
-pub(super) fn fault(model: &Model, body: u32, time: f64, error: SegmentError) -> Fault {
-    let name = &model.dynamic(body).identity.name;
-    let message = match error {
-        SegmentError::NotFinite => {
-            format!(
-                "body {name}: position, velocity or force is not a finite number; look at its forces and start"
-            )
-        }
-        SegmentError::InCore => {
-            format!(
-                "body {name}: its centre lies on a point attractor, where the force has no value; move one of them"
-            )
-        }
-        SegmentError::Stalled => {
-            format!(
-                "body {name}: the integrator's step has shrunk to nothing; a force is singular or not smooth there"
-            )
-        }
-    };
-    Fault { time, message }
-}
-
-/// Puts an event into the outbox under the next sequence number.
-pub(super) fn record(state: &mut State, mut event: Event) {
-    state.sequence += 1;
-    event.seq = state.sequence;
-    let kind = EventKind::ALL.iter().position(|kind| *kind == event.kind).unwrap_or(0);
-    state.counters.events[kind] += 1;
-    state.outbox.push_back(event);
-}
-
-/// An event of two bodies that exchanges no impulse.
-pub(super) fn record_contact(model: &Model, state: &mut State, time: f64, kind: EventKind, pair: Pair) {
-    let gap = gap_of(model, state, pair, time);
-    let event = contact_event(time, kind, pair, &gap);
-    record(state, in_id_order(model, event));
-}
-
-/// The same event with the body of the smaller UserID first and the normal from it to the other.
-pub(super) fn in_id_order(model: &Model, mut event: Event) -> Event {
-    if let Some(b) = event.b
-        && rank(model, b) < rank(model, event.a)
-    {
-        (event.a, event.b, event.normal) = (b, Some(event.a), -event.normal);
-    }
-    event
-}
-
-/// UserID order.
-pub(super) fn rank(model: &Model, body: BodyRef) -> (i64, u32, BodyRef) {
-    let identity = &model.body(BodyId::from_ref(body)).identity;
-    (identity.id, identity.order, body)
 }

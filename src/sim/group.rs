@@ -16,7 +16,7 @@ use glam::DVec3;
 
 use super::body::BodyId;
 use super::constraint::{Link, enter_none};
-use super::contact::{Bodies, gap_of, restitution_of, surface_of};
+use super::geometry::{Bodies, gap_of, restitution_of, surface_of};
 use super::island::Island;
 use super::model::Model;
 use super::neighbours::near;

@@ -3,18 +3,21 @@
 
 use glam::DVec3;
 
-use super::contact::{Contact, restitution_of};
-use super::engine::{a_little_after, in_id_order, rank, record};
+use super::contact::Contact;
+use super::event::{Event, EventKind};
+use super::exchange::{exchange, velocity_change};
+use super::fault::Fault;
+use super::geometry::restitution_of;
 use super::group::{Group, Member, hit_just_now};
-use super::island::{From, part, restart};
-use super::lasting::{Settling, settle};
+use super::island::part;
+use super::ledger::{contact_event, in_id_order, rank, record};
 use super::model::Model;
-use super::neighbours::predict_pair;
+use super::neighbours::{a_little_after, predict_pair};
 use super::pair::Pair;
 use super::predict::{Gap, touch_tolerance};
-use super::restitution::{Blow, blow, reduced_mass};
+use super::restart::{Start, restart};
+use super::settle::{Settling, settle};
 use super::state::State;
-use super::{Event, EventKind, Fault};
 
 /// Two bodies touch while closing. `also` are impacts of the same instant, of which those connected with it
 /// are resolved too and taken out.
@@ -70,7 +73,7 @@ fn is_near_rest(model: &Model, pair: Pair, gap: &Gap) -> bool {
 fn bounce(model: &Model, state: &mut State, time: f64, pair: Pair, gap: &Gap) -> Result<(), Fault> {
     note_lossy(model, state, time, &[pair]);
     let impulse = exchange(model, state, time, pair, gap);
-    let start = |body: u32, impulse: f64| From {
+    let start = |body: u32, impulse: f64| Start {
         body,
         x: state.position(body, time),
         v: state.velocity(body, time) + velocity_change(model, body, impulse, gap.normal),
@@ -83,38 +86,6 @@ fn bounce(model: &Model, state: &mut State, time: f64, pair: Pair, gap: &Gap) ->
             restart(model, state, time, &[first, second])
         }
     }
-}
-
-/// Books and lists an impact of two bodies by Newton's law, v_n' = −e v_n. Gives the impulse on the second one
-/// along the normal, N·s; the first takes the opposite.
-pub(super) fn exchange(model: &Model, state: &mut State, time: f64, pair: Pair, gap: &Gap) -> f64 {
-    let moved = reduced_mass(model.body(pair.a).mass(), model.body(pair.b).mass());
-    let Blow { impulse, parting, loss } = blow(moved, restitution_of(model, pair), -gap.rate);
-    state.account.impact_losses.add(loss);
-    if pair.b.is_static() {
-        state.account.impulses.add(-impulse * gap.normal);
-    }
-    state.group += 1;
-    let event = Event {
-        impulse,
-        vn_before: gap.rate,
-        vn_after: parting,
-        group: state.group,
-        ..contact_event(time, EventKind::Impact, pair, gap)
-    };
-    record(state, in_id_order(model, event));
-    impulse
-}
-
-/// What an impulse along the normal does to a dynamic body, m/s.
-pub(super) fn velocity_change(model: &Model, body: u32, impulse: f64, normal: DVec3) -> DVec3 {
-    impulse / model.mass(body) * normal
-}
-
-/// An event of two bodies that exchanges no impulse, not yet numbered or in the order of their ids.
-pub(super) fn contact_event(time: f64, kind: EventKind, pair: Pair, gap: &Gap) -> Event {
-    let (a, b) = pair.refs();
-    Event { b: Some(b), normal: gap.normal, ..Event::of_one(time, kind, a, gap.point) }
 }
 
 /// Lists what a group exchanged, one row for each contact.
@@ -145,21 +116,23 @@ fn list(model: &Model, state: &mut State, time: f64, group: &Group, kind: EventK
 fn finish(model: &Model, state: &mut State, time: f64, mut group: Group) -> Result<(), Fault> {
     let before: Vec<DVec3> = group.bodies.ids.iter().map(|body| state.velocity(*body, time)).collect();
     let settling = settle(model, &mut group);
-    let mut changed: Vec<bool> = before.iter().zip(&group.bodies.v).map(|(old, new)| old != new).collect();
-    for (k, member) in group.members.iter().enumerate() {
-        if member.pair.b.is_static() {
-            state.account.impulses.add(-member.impulse * member.link.towards);
+    book(state, &group, &before);
+    let changed = changed(&group, &before, &settling);
+    keep_contacts(model, state, &group, &settling);
+    restart(model, state, time, &starts_of(&group, &changed))?;
+    // What neither needed an impulse nor lasts.
+    for member in &group.members {
+        if !changed[member.link.a] && !member.link.b.is_some_and(|b| changed[b]) {
+            predict_pair(model, state, member.pair, a_little_after(time), time);
         }
-        let made = settling.iter().find(|settling| settling.member == k);
-        let is_new = made.is_some_and(|made| made.settles_at.is_some());
-        if is_new || (member.is_lasting && made.is_none()) {
-            [Some(member.link.a), member.link.b].into_iter().flatten().for_each(|body| changed[body] = true);
-        }
-        match made {
-            Some(made) => make(state, member, made),
-            None if member.is_lasting => part(model, state, member.pair, time),
-            None => {}
-        }
+    }
+    Ok(())
+}
+
+/// Momentum that static bodies gave or took, and energy lost.
+fn book(state: &mut State, group: &Group, before: &[DVec3]) {
+    for member in group.members.iter().filter(|member| member.pair.b.is_static()) {
+        state.account.impulses.add(-member.impulse * member.link.towards);
     }
     state.account.impulses.add(group.seized);
     for (k, before) in before.iter().enumerate() {
@@ -168,23 +141,42 @@ fn finish(model: &Model, state: &mut State, time: f64, mut group: Group) -> Resu
         let loss = 0.5 * (*before - after).dot(*before + after) / group.bodies.inverse_mass[k];
         state.account.impact_losses.add(loss);
     }
-    let unmoved: Vec<Pair> = group
-        .members
-        .iter()
-        .filter(|member| !changed[member.link.a] && !member.link.b.is_some_and(|b| changed[b]))
-        .map(|member| member.pair)
-        .collect();
-    let bodies = group.bodies;
-    let starts: Vec<From> = (0..bodies.ids.len())
-        .filter(|k| changed[*k])
-        .map(|k| From { body: bodies.ids[k], x: bodies.x[k], v: bodies.v[k] })
-        .collect();
-    restart(model, state, time, &starts)?;
-    // What neither needed an impulse nor lasts.
-    for pair in unmoved {
-        predict_pair(model, state, pair, a_little_after(time), time);
+}
+
+/// Which bodies of a group go on otherwise than before: by velocity, or by a contact that begins or ends.
+fn changed(group: &Group, before: &[DVec3], settling: &[Settling]) -> Vec<bool> {
+    let mut changed: Vec<bool> = before.iter().zip(&group.bodies.v).map(|(old, new)| old != new).collect();
+    for (k, member) in group.members.iter().enumerate() {
+        let made = made_of(settling, k);
+        let is_new = made.is_some_and(|made| made.settles_at.is_some());
+        if is_new || (member.is_lasting && made.is_none()) {
+            [Some(member.link.a), member.link.b].into_iter().flatten().for_each(|body| changed[body] = true);
+        }
     }
-    Ok(())
+    changed
+}
+
+/// What lasts of a contact of a group.
+fn made_of(settling: &[Settling], member: usize) -> Option<&Settling> {
+    settling.iter().find(|settling| settling.member == member)
+}
+
+/// Enters the contacts that begin to last, and ends those that last no more.
+fn keep_contacts(model: &Model, state: &mut State, group: &Group, settling: &[Settling]) {
+    for (k, member) in group.members.iter().enumerate() {
+        match made_of(settling, k) {
+            Some(made) => make(state, member, made),
+            None if member.is_lasting => part(model, state, member.pair, group.time),
+            None => {}
+        }
+    }
+}
+
+/// The bodies of a group that are to go on anew.
+fn starts_of(group: &Group, changed: &[bool]) -> Vec<Start> {
+    let bodies = &group.bodies;
+    let start = |k: usize| Start { body: bodies.ids[k], x: bodies.x[k], v: bodies.v[k] };
+    (0..bodies.ids.len()).filter(|k| changed[*k]).map(start).collect()
 }
 
 /// Enters a lasting contact with both bodies, or what is new about an old one.

@@ -1,32 +1,21 @@
 //! Islands: dynamic bodies connected by lasting contacts, which move together. A body that touches static
 //! bodies only is an island of its own.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use glam::DVec3;
 
 use super::constraint::{Link, enter_none, largest_push, stay_on};
-use super::contact::{Bodies, surface_of};
-use super::engine::{fault, record_contact};
+use super::event::EventKind;
+use super::geometry::{Bodies, surface_of};
+use super::ledger::record_contact;
 use super::model::Model;
-use super::motion::{
-    SegmentError, Step, applied_force, begin_segment, check, coupled_step, place, step_hint, subject_at,
-};
-use super::neighbours::predict_all;
+use super::motion::{SegmentError, Step, applied_force, check, coupled_step, place, step_hint, subject_at};
 use super::pair::Pair;
 use super::predict::PRESSURE_ROUNDING;
 use super::segment::Segment;
 use super::shape::Surface;
 use super::state::State;
-use super::{EventKind, Fault};
-
-/// Where a body goes on from.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct From {
-    pub body: u32,
-    pub x: DVec3,
-    pub v: DVec3,
-}
 
 /// Bodies of one island at one time, in the order of their indices.
 #[derive(Clone, Debug, Default)]
@@ -250,60 +239,6 @@ pub(super) fn first_parting(model: &Model, state: &State, ids: &[u32]) -> Option
         low = high;
     }
     None
-}
-
-/// Lets bodies go on, with all that they are in contact with: contacts that no longer hold are dropped,
-/// segments begin, and everything about them is predicted. All segments must stand before anything is
-/// predicted between them.
-pub(super) fn restart(model: &Model, state: &mut State, time: f64, starts: &[From]) -> Result<(), Fault> {
-    let is_free = |state: &State, body: u32| state.contacts[body as usize].is_empty();
-    if starts.iter().all(|start| is_free(state, start.body)) {
-        for start in starts {
-            begin_free(model, state, time, start)?;
-        }
-        starts.iter().for_each(|start| predict_all(model, state, start.body, time));
-        return Ok(());
-    }
-    let (free, held): (Vec<From>, Vec<From>) = starts.iter().partition(|start| is_free(state, start.body));
-    for start in &free {
-        begin_free(model, state, time, start)?;
-    }
-    let mut bodies = begin_islands(model, state, time, &held)?;
-    bodies.extend(free.iter().map(|start| start.body));
-    bodies.sort_unstable();
-    bodies.into_iter().for_each(|body| predict_all(model, state, body, time));
-    Ok(())
-}
-
-/// Begins segments for bodies and all that they are in contact with; gives them all.
-fn begin_islands(model: &Model, state: &mut State, time: f64, starts: &[From]) -> Result<Vec<u32>, Fault> {
-    let bodies = connected(state, starts.iter().map(|start| start.body));
-    let given: BTreeMap<u32, &From> = starts.iter().map(|start| (start.body, start)).collect();
-    let place_of = |body: &u32| match given.get(body) {
-        Some(start) => (start.x, start.v),
-        None => (state.position(*body, time), state.velocity(*body, time)),
-    };
-    let from: Vec<(DVec3, DVec3)> = bodies.iter().map(place_of).collect();
-    let of = |body: u32| bodies.binary_search(&body).map_or((DVec3::ZERO, DVec3::ZERO), |k| from[k]);
-    for ids in islands(state, &bodies) {
-        drop_unpressed(model, state, &Island::new(model, state, ids, of), time);
-    }
-    // What is left may have fallen apart.
-    for ids in islands(state, &bodies) {
-        let mut island = Island::new(model, state, ids, of);
-        if island.contacts.is_empty() {
-            begin_free(model, state, time, &From { body: island.ids[0], x: island.x[0], v: island.v[0] })?;
-        } else {
-            begin_island(model, state, &mut island, time)
-                .map_err(|(body, error)| fault(model, body, time, error))?;
-        }
-    }
-    Ok(bodies)
-}
-
-fn begin_free(model: &Model, state: &mut State, time: f64, start: &From) -> Result<(), Fault> {
-    begin_segment(model, state, start.body, time, start.x, start.v)
-        .map_err(|error| fault(model, start.body, time, error))
 }
 
 /// The earliest representable time in low..=high at which `holds` no longer holds.

@@ -1,9 +1,12 @@
 //! The compiled scene: everything about bodies, forces and settings that does not move.
 
+use glam::DVec3;
+
 use super::body::{Bodies, Body, BodyId};
-use super::force::ForceEntry;
+use super::force::{ForceEntry, Subject};
+use super::method::Method;
+use super::report::Plan;
 use super::tiles::{Grid, StaticTiles};
-use super::{Method, Plan};
 use crate::scene::{Diagnostic, SimParams};
 
 /// Immutable while it runs; an edit makes a changed copy.
@@ -42,6 +45,11 @@ impl Model {
     /// All dynamic bodies that are there now.
     pub fn present(&self) -> impl Iterator<Item = u32> + '_ {
         self.bodies.present_dynamic()
+    }
+
+    /// Sum of the applied forces, N.
+    pub fn applied_force(&self, subject: &Subject<'_>) -> DVec3 {
+        self.forces.iter().map(|force| force.law.force(subject)).sum()
     }
 
     /// Whether flight is a parabola: all forces are uniform.

@@ -2,11 +2,11 @@
 
 use glam::DVec3;
 
-use super::Tiling;
 use super::body::{BodyId, Identity};
-use super::contact::gap_of;
+use super::geometry::gap_of;
 use super::model::Model;
 use super::pair::Pair;
+use super::report::Tiling;
 use super::state::State;
 use crate::scene::{Diagnostic, Severity};
 

@@ -3,12 +3,14 @@
 use glam::DVec3;
 
 use super::body::BodyId;
+use super::contact_ends::predict_contact_events;
+use super::force::Law;
+use super::geometry::{ball, target};
 use super::model::Model;
 use super::pair::Pair;
-use super::predict;
+use super::predict::{self, first_beyond};
 use super::queue::Kind;
 use super::roots::first_root;
-use super::segment::Path;
 use super::state::{Scratch, State};
 use super::tiles::{TileRange, for_each_brick};
 
@@ -41,7 +43,7 @@ pub(super) fn predict_all(model: &Model, state: &mut State, body: u32, time: f64
     }
     predict_leaving(model, state, body, time);
     predict_core_passes(model, state, body, time);
-    super::lasting::predict_contact_events(model, state, body, time);
+    predict_contact_events(model, state, body, time);
     let range = state.registered[body as usize];
     predict_neighbours(model, state, body, range, None, time);
 }
@@ -96,41 +98,9 @@ fn predict_leaving(model: &Model, state: &mut State, body: u32, time: f64) {
     }
 }
 
-/// First time ≥ `from` at which direction·x reaches `limit`, or comes within `early` of it on a path that
-/// is not a parabola.
-pub(super) fn first_beyond(
-    path: Path<'_>,
-    direction: DVec3,
-    limit: f64,
-    early: f64,
-    from: f64,
-) -> Option<f64> {
-    let segment = path.segment;
-    let mut time = from;
-    loop {
-        let distance = limit - direction.dot(path.position(time));
-        let rate = -direction.dot(path.velocity(time));
-        if path.series.is_none() {
-            return first_root(distance, rate, -direction.dot(segment.a)).map(|tau| time + tau);
-        }
-        if distance <= early {
-            return Some(time);
-        }
-        // |ẍ| ≤ A: the limit is not reached before distance + rate·δ − ½Aδ² = 0.
-        let step = first_root(distance, rate, -segment.acceleration_bound)?;
-        if time + step > segment.end {
-            return None;
-        }
-        if time + step <= time {
-            return Some(time);
-        }
-        time += step;
-    }
-}
-
 pub(super) fn predict_core_passes(model: &Model, state: &mut State, body: u32, time: f64) {
     for (index, force) in (0u32..).zip(&model.forces) {
-        let super::force::Law::Point { center, intensity } = force.law else { continue };
+        let Law::Point { center, intensity } = force.law else { continue };
         if intensity <= 0.0 {
             continue;
         }
@@ -151,10 +121,10 @@ fn predict_neighbours(
 ) {
     let mut scratch = std::mem::take(&mut state.scratch);
     collect(model, state, &mut scratch, body, range, known);
-    let ball = state.ball(model, body);
+    let from = ball(model, state, body);
     let looked_at = scratch.found_moving.len();
     let near = model.params.contact_distance;
-    scratch.found_moving.retain(|other| !predict::surely_pass(ball, state.ball(model, *other), near));
+    scratch.found_moving.retain(|other| !predict::surely_pass(from, ball(model, state, *other), near));
     state.counters.pair_tests += (looked_at - scratch.found_moving.len()) as u64;
     for other in &scratch.found_moving {
         predict_pair(model, state, Pair::of(body, BodyId::of_dynamic(*other)), f64::NEG_INFINITY, time);
@@ -227,10 +197,17 @@ pub(super) fn predict_pair(model: &Model, state: &mut State, pair: Pair, from: f
     {
         state.note_touching(body, other);
     }
-    let impact = predict::first_contact(state.ball(model, body), state.target(model, pair.b), from);
+    let impact = predict::first_contact(ball(model, state, body), target(model, state, pair.b), from);
     if let Some(impact) = impact {
         state.predict(impact.max(time), Kind::Impact, pair);
     }
+}
+
+/// Where to go on looking after a prediction that led to nothing: the same time would only give the same
+/// answer.
+pub(super) fn a_little_after(time: f64) -> f64 {
+    const LATER: f64 = 1e-9;
+    time + LATER.max(4.0 * f64::EPSILON * time)
 }
 
 /// Whether two dynamic bodies touch to within the contact distance and will for a while: an impact on one

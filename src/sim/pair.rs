@@ -1,7 +1,7 @@
 //! Two bodies that meet or touch, of which one at least is dynamic.
 
-use super::BodyRef;
 use super::body::BodyId;
+use super::event::BodyRef;
 
 /// Two bodies, `a` before `b`: so `a` is dynamic, and `b` is where one of them is static.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

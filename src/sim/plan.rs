@@ -4,8 +4,9 @@ use std::collections::BTreeSet;
 
 use super::body::Body;
 use super::force::Law;
+use super::method::Method;
 use super::model::Model;
-use super::{Method, Plan};
+use super::report::Plan;
 
 pub(super) fn plan_of(model: &Model) -> Plan {
     let present = || model.bodies.iter().map(|(_, body)| body).filter(|body| body.present);

@@ -5,19 +5,17 @@ use std::collections::{BTreeMap, VecDeque};
 use glam::DVec3;
 
 use super::account::Account;
-use super::body::BodyId;
-use super::compile::Start;
+use super::body::{BodyId, Origin};
 use super::contact::Contact;
+use super::event::Event;
 use super::model::Model;
 use super::motion::Plunge;
+use super::open_step::OpenStep;
 use super::pair::Pair;
-use super::predict::{Ball, Target};
 use super::queue::{Kind, Predicted, Queue};
+use super::report::{ContactState, Counters};
 use super::segment::{Path, Segment, Series};
-use super::shape::Shape;
-use super::stepping::OpenStep;
 use super::tiles::{MovingTiles, TileRange};
-use super::{Counters, Event};
 
 /// Mutable part of a simulation; a clone of it is a bit-exact snapshot.
 #[derive(Clone, Debug)]
@@ -82,19 +80,19 @@ pub(super) struct Scratch {
 
 impl State {
     /// All bodies at their start, at t = 0, in no tile and with nothing predicted.
-    pub fn new(starts: &[Start]) -> Self {
+    pub fn new(origins: &[Origin]) -> Self {
         let mut state = Self {
             now: 0.0,
             reached: 0.0,
             until: 0.0,
-            segments: Vec::with_capacity(starts.len()),
-            stamps: Vec::with_capacity(starts.len()),
-            registered: Vec::with_capacity(starts.len()),
+            segments: Vec::with_capacity(origins.len()),
+            stamps: Vec::with_capacity(origins.len()),
+            registered: Vec::with_capacity(origins.len()),
             fields: Vec::new(),
             plunges: BTreeMap::new(),
-            contacts: Vec::with_capacity(starts.len()),
-            touching: Vec::with_capacity(starts.len()),
-            cascades: Vec::with_capacity(starts.len()),
+            contacts: Vec::with_capacity(origins.len()),
+            touching: Vec::with_capacity(origins.len()),
+            cascades: Vec::with_capacity(origins.len()),
             moving: MovingTiles::default(),
             queue: Queue::default(),
             step: None,
@@ -105,16 +103,16 @@ impl State {
             counters: Counters::default(),
             scratch: Scratch::default(),
         };
-        for start in starts {
-            state.push_body(*start);
+        for origin in origins {
+            state.push_body(*origin);
         }
         state
     }
 
     /// Adds a dynamic body's row to every column, at rest in no tile; gives its index.
-    pub fn push_body(&mut self, start: Start) -> u32 {
+    pub fn push_body(&mut self, origin: Origin) -> u32 {
         let index = self.segments.len() as u32;
-        self.segments.push(Segment::ballistic(self.now, start.position, start.velocity, DVec3::ZERO));
+        self.segments.push(Segment::ballistic(self.now, origin.position, origin.velocity, DVec3::ZERO));
         self.stamps.push(0);
         self.registered.push(TileRange::default());
         self.contacts.push(Vec::new());
@@ -134,25 +132,6 @@ impl State {
         match id.dynamic() {
             Some(body) => self.path(body),
             None => Path { segment: model.bodies.place(id.index()), series: None },
-        }
-    }
-
-    /// A dynamic body as prediction sees it.
-    pub fn ball<'a>(&'a self, model: &Model, body: u32) -> Ball<'a> {
-        Ball { path: self.path(body), radius: model.radius(body) }
-    }
-
-    /// Any body as prediction sees it.
-    pub fn target<'a>(&'a self, model: &'a Model, id: BodyId) -> Target<'a> {
-        if let Some(body) = id.dynamic() {
-            return Target::Dynamic(self.ball(model, body));
-        }
-        let path = self.path_of(model, id);
-        match &model.body(id).shape {
-            Shape::Sphere(sphere) => Target::Sphere(Ball { path, radius: sphere.radius }),
-            Shape::Plate(plate) => Target::Plate(plate),
-            #[allow(unreachable_patterns, reason = "all shapes so far have closed forms")]
-            other => Target::Convex(other.convex(), path.segment.x),
         }
     }
 
@@ -185,6 +164,16 @@ impl State {
         let stamp_a = self.stamps[pair.first() as usize];
         let stamp_b = pair.second().map_or(0, |b| self.stamps[b as usize]);
         self.queue.push(Predicted { time, kind, a: pair.first(), b: pair.b, stamp_a, stamp_b });
+    }
+
+    /// How a body moves at a time, for people: a body in contact that neither moves nor is driven rests.
+    pub fn contact_state(&self, body: u32, time: f64) -> ContactState {
+        if self.contacts[body as usize].is_empty() {
+            return ContactState::Flight;
+        }
+        let path = self.path(body);
+        let still = path.velocity(time) == DVec3::ZERO && path.acceleration(time) == DVec3::ZERO;
+        if still { ContactState::Rest } else { ContactState::Slide }
     }
 
     /// The lasting contact of a pair.

@@ -4,6 +4,7 @@
 //! by conservative advancement from its nearest feature alone ([`sphere_convex`]).
 
 mod advance;
+mod beyond;
 mod gap;
 mod sphere_convex;
 mod sphere_plate;
@@ -14,6 +15,7 @@ use glam::DVec3;
 use super::segment::{Path, Segment};
 use super::shape::{Convex, Plate};
 
+pub(super) use beyond::first_beyond;
 pub(super) use gap::{Ball, Gap, PRESSURE_ROUNDING, touch_tolerance};
 pub(super) use sphere_sphere::surely_pass;
 
@@ -24,7 +26,6 @@ pub(super) enum Target<'a> {
     Sphere(Ball<'a>),
     Plate(&'a Plate),
     /// Any other shape, placed at a point.
-    #[cfg_attr(not(test), allow(dead_code, reason = "all shapes so far have closed forms"))]
     Convex(&'a dyn Convex, DVec3),
 }
 

@@ -1,36 +1,17 @@
 //! Shapes: one file each with all that is known about it alone, and the table of them. Times of impact, which
 //! are about two shapes, are in `predict`.
 
+#[cfg(test)]
+mod capsule;
+mod convex;
 mod near;
 mod plate;
 mod sphere;
 
-use glam::DVec3;
-
-pub(super) use near::{Feature, Near, Surface};
+pub(super) use convex::Convex;
+pub(super) use near::{Near, Surface};
 pub(super) use plate::Plate;
 pub(super) use sphere::{Sphere, direction};
-
-/// What is to be known about a convex shape. A plate lies where its own numbers say; others are placed `at` a
-/// point, m.
-pub(super) trait Convex {
-    /// Kind of pair that it makes with a dynamic sphere, for people.
-    fn pair_name(&self) -> &'static str;
-
-    /// Axis-aligned bounds, m.
-    fn bounds(&self, at: DVec3) -> (DVec3, DVec3);
-
-    /// Whether it touches an axis-aligned box. It may say so of a box that it misses by a rounding.
-    fn touches_box(&self, at: DVec3, low: DVec3, high: DVec3) -> bool;
-
-    /// What a point sees of it: the nearest feature.
-    fn nearest(&self, at: DVec3, point: DVec3) -> Near;
-
-    /// The sides of its flat faces: a body lies on a face where axis·x ≤ limit for each (axis, limit in m).
-    fn sides(&self) -> Vec<(DVec3, f64)> {
-        Vec::new()
-    }
-}
 
 /// The table of shapes.
 #[derive(Clone, Debug)]
@@ -38,6 +19,8 @@ pub(super) enum Shape {
     Sphere(Sphere),
     /// Apart, so that a body stays small.
     Plate(Box<Plate>),
+    #[cfg(test)]
+    Capsule(capsule::Capsule),
 }
 
 impl Shape {
@@ -46,6 +29,8 @@ impl Shape {
         match self {
             Self::Sphere(sphere) => sphere,
             Self::Plate(plate) => &**plate,
+            #[cfg(test)]
+            Self::Capsule(capsule) => capsule,
         }
     }
 
@@ -53,7 +38,7 @@ impl Shape {
     pub fn radius(&self) -> f64 {
         match self {
             Self::Sphere(sphere) => sphere.radius,
-            Self::Plate(_) => 0.0,
+            _ => 0.0,
         }
     }
 }

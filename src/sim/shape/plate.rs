@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use super::{Convex, Feature, Near};
+use super::convex::Convex;
+use super::near::{Feature, Near};
 
 /// A bounded plane in world coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]

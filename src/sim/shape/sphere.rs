@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use super::{Convex, Feature, Near};
+use super::convex::Convex;
+use super::near::{Feature, Near};
 
 /// A ball round the place of its body.
 #[derive(Clone, Copy, Debug, PartialEq)]

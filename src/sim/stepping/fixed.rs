@@ -1,21 +1,15 @@
 //! The search of the method `fixed`: overlaps of bodies that share a tile at the end of the step.
 
-use super::StepLimits;
-use super::overlap::{Hit, hit};
-use super::step::{collide, register};
-use crate::sim::Fault;
+use super::limits::StepLimits;
+use super::overlap::hit;
+use super::register::register;
+use super::response::collide;
+use crate::sim::fault::Fault;
 use crate::sim::model::Model;
 use crate::sim::neighbours::near;
+use crate::sim::open_step::{Hit, PairSearch};
 use crate::sim::pair::Pair;
 use crate::sim::state::State;
-
-/// The overlaps at the end of a step that are not resolved yet.
-#[derive(Clone, Debug)]
-pub(super) struct PairSearch {
-    hits: Vec<Hit>,
-    /// Collisions of each body in this step.
-    collisions: Vec<u32>,
-}
 
 impl PairSearch {
     pub fn begin(model: &Model, state: &mut State, end: f64) -> Self {

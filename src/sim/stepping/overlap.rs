@@ -1,30 +1,12 @@
 //! Overlaps at the end of a trial step, and when they began.
 
-use super::StepLimits;
-use crate::sim::contact::gap_of;
+use super::limits::StepLimits;
+use crate::sim::geometry::gap_of;
 use crate::sim::model::Model;
+use crate::sim::open_step::Hit;
 use crate::sim::pair::Pair;
 use crate::sim::shape::Shape;
 use crate::sim::state::State;
-
-/// A pair that overlaps at the end of its trial step.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Hit {
-    /// Just before the surfaces meet, s.
-    pub time: f64,
-    pub pair: Pair,
-}
-
-impl Hit {
-    /// Order by time; ties by the pair, so that a run is the same every time.
-    pub fn is_before(&self, other: &Self) -> bool {
-        self.time.total_cmp(&other.time).then(self.pair.cmp(&other.pair)).is_lt()
-    }
-
-    pub fn involves(&self, body: u32) -> bool {
-        self.pair.involves(body)
-    }
-}
 
 /// The hit of a pair between `from` and `to`, if it overlaps at `to`. A pair that overlaps at `from` already
 /// hits there if it closes in, and else is left to part.

@@ -4,31 +4,18 @@
 //! nothing there; one that is past a thin body at the trial end never met it. Both are losses of the
 //! method and are kept.
 
-use super::StepLimits;
-use super::overlap::{Hit, hit};
-use super::step::{collide, register};
+use super::limits::StepLimits;
+use super::overlap::hit;
+use super::register::register;
+use super::response::collide;
 use crate::sim::body::BodyId;
 use crate::sim::candidates::{CandidateSet, candidate_sets};
+use crate::sim::event::BodyRef;
+use crate::sim::fault::Fault;
 use crate::sim::model::Model;
+use crate::sim::open_step::{Hit, LocalSet, SetSearch};
 use crate::sim::pair::Pair;
 use crate::sim::state::State;
-use crate::sim::{BodyRef, Fault};
-
-/// All local sets of a Δt.
-#[derive(Clone, Debug)]
-pub(super) struct SetSearch {
-    sets: Vec<LocalSet>,
-}
-
-/// Bodies that could meet in this Δt, and those that do.
-#[derive(Clone, Debug)]
-struct LocalSet {
-    moving: Vec<u32>,
-    fixed: Vec<u32>,
-    hits: Vec<Hit>,
-    /// Collisions that may still be resolved.
-    left: u32,
-}
 
 impl SetSearch {
     /// Registers all bodies where their trial step ends, and looks for overlaps there.

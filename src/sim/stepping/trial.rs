@@ -2,13 +2,14 @@
 
 use glam::DVec3;
 
-use crate::sim::account::{book_segment, subject};
+use crate::sim::books::{book_segment, subject};
+use crate::sim::fault::Fault;
 use crate::sim::force::{Law, Subject};
+use crate::sim::method::Method;
 use crate::sim::model::Model;
 use crate::sim::motion::applied_force;
 use crate::sim::segment::Segment;
 use crate::sim::state::State;
-use crate::sim::{Fault, Method};
 
 /// Lets a body go on from (x, v): s = s₀ + v₀t + ½at² with a = F/m here. Books what it did so far.
 pub(super) fn begin(

@@ -3,7 +3,7 @@
 use rustc_hash::FxHashMap;
 
 use super::bricks::{BRICK_TILES, BrickTile, for_each_brick, slots};
-use super::{Grid, TileRange};
+use super::grid::{Grid, TileRange};
 
 /// Lists of dynamic bodies by tile; only bricks with bodies in them are stored. A list is a chain of small
 /// blocks out of one array.

@@ -4,7 +4,7 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 
 use super::bricks::{BrickTile, for_each_brick, slots};
-use super::{Grid, TileRange};
+use super::grid::{Grid, TileRange};
 use crate::sim::body::{Bodies, BodyId};
 use crate::sim::shape::Convex;
 
