@@ -135,7 +135,7 @@ pub(super) struct Bodies {
     /// Radii of the dynamic bodies, m: close together, for predictions read many.
     radii: Vec<f64>,
     /// Where the static bodies are, as motions that never change.
-    places: Vec<Segment>,
+    static_segments: Vec<Segment>,
 }
 
 impl Bodies {
@@ -143,7 +143,7 @@ impl Bodies {
     pub fn push(&mut self, body: Body, position: DVec3) -> BodyId {
         if body.is_static() {
             self.statics.push(body);
-            self.places.push(Segment::resting(position));
+            self.static_segments.push(Segment::resting(position));
             BodyId::of_static(self.statics.len() as u32 - 1)
         } else {
             self.radii.push(body.shape.radius());
@@ -155,7 +155,7 @@ impl Bodies {
     /// Puts another static body in the place of one.
     pub fn replace_static(&mut self, index: u32, body: Body, position: DVec3) {
         self.statics[index as usize] = body;
-        self.places[index as usize] = Segment::resting(position);
+        self.static_segments[index as usize] = Segment::resting(position);
     }
 
     pub fn find(&self, id: BodyId) -> Option<&Body> {
@@ -189,8 +189,8 @@ impl Bodies {
     }
 
     /// Where a static body is.
-    pub fn place(&self, index: u32) -> &Segment {
-        &self.places[index as usize]
+    pub fn static_segment(&self, index: u32) -> &Segment {
+        &self.static_segments[index as usize]
     }
 
     /// All dynamic bodies that are there.

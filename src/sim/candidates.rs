@@ -36,7 +36,7 @@ pub(super) fn candidate_sets(model: &Model, state: &State) -> Vec<CandidateSet> 
         |body| state.registered[body as usize].tiles().map(|tile| grid.key(tile)).collect(),
         |key| {
             let tile = grid.tile_of_key(key);
-            (state.moving.bodies(grid, tile), model.static_tiles.bodies(grid, tile))
+            (state.dynamic_tiles.bodies(grid, tile), model.static_tiles.bodies(grid, tile))
         },
     )
 }

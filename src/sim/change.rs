@@ -159,7 +159,7 @@ fn remove(model: &mut Model, state: &mut State, key: NodeKey) -> Result<Option<B
         remake_static_tiles(model);
         return Ok(Some(body));
     };
-    state.moving.remove(&model.grid, state.registered[index as usize], index);
+    state.dynamic_tiles.remove(&model.grid, state.registered[index as usize], index);
     // Nothing predicted about it holds any more.
     state.stamps[index as usize] = state.stamps[index as usize].wrapping_add(1);
     state.forget_touching(index);

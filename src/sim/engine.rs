@@ -5,7 +5,6 @@ use super::event::{Event, EventKind};
 use super::fault::Fault;
 use super::force::Law;
 use super::geometry::gap_of;
-use super::group::SAME_INSTANT;
 use super::impact;
 use super::island::part;
 use super::ledger::{record, record_contact};
@@ -13,15 +12,17 @@ use super::model::Model;
 use super::motion::turn_back;
 use super::neighbours::{a_little_after, predict_core_passes, predict_pair, reregister};
 use super::pair::Pair;
-use super::predict::{self, Gap};
+use super::predict::{Gap, touch_tolerance};
 use super::queue::{Kind, Predicted};
 use super::restart::{Start, restart};
 use super::state::State;
+use super::tolerance::{FOUND, SAME_INSTANT, TIME_ROUNDING};
 
 /// Carries out the next predicted event that is not after `state.until`; false when there is none.
 /// What it has to report is left in the outbox.
 pub(super) fn advance(model: &Model, state: &mut State) -> Result<bool, Fault> {
     let Some(next) = pop(state, state.until) else { return Ok(false) };
+    debug_assert!(next.time >= state.reached, "predictions come in the order of time: {next:?}");
     state.reached = next.time;
     match next.kind {
         Kind::SegmentEnd => go_on(model, state, next.a, next.time)?,
@@ -118,8 +119,8 @@ fn reach(model: &Model, pair: Pair) -> f64 {
 /// Whether surfaces are as near as a found root leaves them: a search that gave up is farther off. A root
 /// is known to the rounding of the time, in which they come nearer by |ḋ| times that.
 fn is_closed(gap: &Gap, radius: f64, time: f64) -> bool {
-    let rounding_of_time = 16.0 * f64::EPSILON * time * gap.rate.abs();
-    gap.distance <= 1e3 * predict::touch_tolerance(gap.point, radius) + rounding_of_time
+    let rounding_of_time = TIME_ROUNDING * time * gap.rate.abs();
+    gap.distance <= FOUND * touch_tolerance(gap.point, radius) + rounding_of_time
 }
 
 /// The body is turned back on its line at the core of a point attractor, the limit of ever thinner

@@ -11,6 +11,13 @@ pub struct Fault {
     pub message: String,
 }
 
+impl Fault {
+    /// What the program itself has got wrong.
+    pub(super) fn internal(time: f64, what: &str) -> Self {
+        Self { time, message: format!("internal error: {what}; please report the scene") }
+    }
+}
+
 /// What to report of a body that has no motion from here on.
 pub(super) fn fault(model: &Model, body: u32, time: f64, error: SegmentError) -> Fault {
     let name = &model.dynamic(body).identity.name;

@@ -8,7 +8,7 @@ use super::model::Model;
 use super::pair::Pair;
 use super::predict::{self, Ball, Gap, Target};
 use super::restitution::of_pair;
-use super::shape::{Shape, Surface, direction};
+use super::shape::{Surface, direction};
 use super::state::State;
 
 /// A dynamic body as prediction sees it.
@@ -22,20 +22,15 @@ pub(super) fn target<'a>(model: &'a Model, state: &'a State, id: BodyId) -> Targ
         return Target::Dynamic(ball(model, state, body));
     }
     let path = state.path_of(model, id);
-    match &model.body(id).shape {
-        Shape::Sphere(sphere) => Target::Sphere(Ball { path, radius: sphere.radius }),
-        Shape::Plate(plate) => Target::Plate(plate),
-        #[allow(unreachable_patterns, reason = "all shapes so far have closed forms")]
-        other => Target::Convex(other.convex(), path.segment.x),
-    }
+    Target::at_rest(&model.body(id).shape, path)
 }
 
 /// What a body at `position` touches of a static one.
 pub(super) fn surface_of(model: &Model, id: BodyId, position: DVec3) -> Surface {
-    model.body(id).shape.convex().nearest(model.bodies.place(id.index()).x, position).surface()
+    model.body(id).shape.convex().nearest(model.bodies.static_segment(id.index()).x, position).surface()
 }
 
-/// The gap of two bodies, with the normal from the first to the partner.
+/// The gap of two bodies, with the normal from `a` to `b`.
 pub(super) fn gap_of(model: &Model, state: &State, pair: Pair, time: f64) -> Gap {
     predict::gap(ball(model, state, pair.first()), target(model, state, pair.b), time)
 }
@@ -47,28 +42,30 @@ pub(super) fn restitution_of(model: &Model, pair: Pair) -> f64 {
 
 /// Some bodies at one time, in the order of their indices.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Bodies<'a> {
+pub(super) struct BodiesAt<'a> {
     pub ids: &'a [u32],
     pub x: &'a [DVec3],
     pub v: &'a [DVec3],
 }
 
-impl Bodies<'_> {
-    fn place(&self, body: u32) -> usize {
-        self.ids.binary_search(&body).unwrap_or(0)
+impl BodiesAt<'_> {
+    fn row(&self, body: u32) -> usize {
+        let row = self.ids.partition_point(|id| *id < body);
+        debug_assert_eq!(self.ids.get(row), Some(&body), "contacts are between bodies of one set");
+        row
     }
 
     /// A contact among these bodies as a bound on their accelerations. The limit is the centripetal
     /// acceleration |v⊥|²/ρ that keeps them on a curved surface of radius ρ: less than that and they part.
     pub fn link(&self, model: &Model, pair: Pair, surface: Surface) -> Link {
-        let a = self.place(pair.first());
-        let b = pair.second().map(|other| self.place(other));
+        let a = self.row(pair.first());
+        let b = pair.second().map(|other| self.row(other));
         let (towards, limit) = match (b, surface) {
             (Some(b), _) => on_sphere(self.x[b] - self.x[a], self.v[a] - self.v[b]),
             (None, Surface::Flat(towards)) => (towards, 0.0),
             (None, Surface::Round) => {
-                let place = model.bodies.place(pair.b.index());
-                let near = model.body(pair.b).shape.convex().nearest(place.x, self.x[a]);
+                let at = model.bodies.static_segment(pair.b.index()).x;
+                let near = model.body(pair.b).shape.convex().nearest(at, self.x[a]);
                 (near.towards, near.turn_away(self.v[a]))
             }
         };

@@ -16,7 +16,7 @@ use glam::DVec3;
 
 use super::body::BodyId;
 use super::constraint::{Link, enter_none};
-use super::geometry::{Bodies, gap_of, restitution_of, surface_of};
+use super::geometry::{BodiesAt, gap_of, restitution_of, surface_of};
 use super::island::Island;
 use super::model::Model;
 use super::neighbours::near;
@@ -24,6 +24,7 @@ use super::pair::Pair;
 use super::predict::Gap;
 use super::shape::Surface;
 use super::state::State;
+use super::tolerance::{CLOSING_ROUNDING, LARGEST_REST, SAME_INSTANT, SMALLEST_SHARE};
 
 /// Bodies that touch, at the time of an impact.
 pub(super) struct Group {
@@ -85,7 +86,7 @@ impl Group {
 
     /// The contacts as bounds on accelerations at the present velocities.
     pub fn acceleration_links(&self, model: &Model) -> Vec<Link> {
-        let bodies = Bodies { ids: &self.bodies.ids, x: &self.bodies.x, v: &self.bodies.v };
+        let bodies = BodiesAt { ids: &self.bodies.ids, x: &self.bodies.x, v: &self.bodies.v };
         self.members.iter().map(|member| bodies.link(model, member.pair, member.surface)).collect()
     }
 
@@ -97,7 +98,7 @@ impl Group {
     /// The rounding of a closing speed: below it nothing closes.
     pub fn rounding(&self, member: &Member) -> f64 {
         let speed = |body: usize| self.bodies.v[body].length();
-        16.0 * f64::EPSILON * (speed(member.link.a) + member.link.b.map_or(0.0, speed))
+        CLOSING_ROUNDING * (speed(member.link.a) + member.link.b.map_or(0.0, speed))
     }
 
     /// Rounds of reflections until nothing closes; whether they went on so long that it is an inelastic
@@ -229,12 +230,6 @@ impl Group {
     }
 }
 
-/// What a plastic impact may leave of the largest closing speed before bodies seize: its rounding is far below.
-const LARGEST_REST: f64 = 1e-9;
-
-/// Closing speeds below this share of the largest at the start are taken plastically: a 1e-24th of the energy.
-const SMALLEST_SHARE: f64 = 1e-12;
-
 /// Contacts of one body: lasting ones, bodies that lie against it, and impacts of this instant.
 fn touching(
     model: &Model,
@@ -265,9 +260,6 @@ pub(super) fn hit_just_now(model: &Model, state: &State, body: u32, time: f64) -
     time - state.segments[body as usize].start <= SAME_INSTANT * model.params.contact_duration
 }
 
-/// Impacts farther apart than this part of the contact duration are not of one instant, however slow.
-pub(super) const SAME_INSTANT: f64 = 1e-3;
-
 fn member(model: &Model, state: &State, bodies: &Island, pair: Pair, time: f64) -> Member {
     let lasting = state.contact(pair);
     let surface = match (lasting, pair.second()) {
@@ -275,7 +267,7 @@ fn member(model: &Model, state: &State, bodies: &Island, pair: Pair, time: f64) 
         (None, Some(_)) => Surface::Round,
         (None, None) => surface_of(model, pair.b, state.position(pair.first(), time)),
     };
-    let at = Bodies { ids: &bodies.ids, x: &bodies.x, v: &bodies.v };
+    let at = BodiesAt { ids: &bodies.ids, x: &bodies.x, v: &bodies.v };
     let link = Link { limit: 0.0, ..at.link(model, pair, surface) };
     Member {
         pair,

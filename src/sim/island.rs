@@ -7,15 +7,15 @@ use glam::DVec3;
 
 use super::constraint::{Link, enter_none, largest_push, stay_on};
 use super::event::EventKind;
-use super::geometry::{Bodies, surface_of};
+use super::geometry::{BodiesAt, surface_of};
 use super::ledger::record_contact;
 use super::model::Model;
 use super::motion::{SegmentError, Step, applied_force, check, coupled_step, place, step_hint, subject_at};
 use super::pair::Pair;
-use super::predict::PRESSURE_ROUNDING;
 use super::segment::Segment;
 use super::shape::Surface;
 use super::state::State;
+use super::tolerance::{PRESSURE_ROUNDING, PRESSURE_SAMPLES};
 
 /// Bodies of one island at one time, in the order of their indices.
 #[derive(Clone, Debug, Default)]
@@ -113,7 +113,7 @@ fn contacts_of(state: &State, ids: &[u32]) -> Vec<(Pair, Surface)> {
 }
 
 fn links_of(model: &Model, ids: &[u32], contacts: &[(Pair, Surface)], x: &[DVec3], v: &[DVec3]) -> Vec<Link> {
-    let bodies = Bodies { ids, x, v };
+    let bodies = BodiesAt { ids, x, v };
     contacts.iter().map(|(pair, surface)| bodies.link(model, *pair, *surface)).collect()
 }
 
@@ -212,10 +212,6 @@ fn is_steady(model: &Model, island: &Island, links: &[Link], accelerations: &[DV
     };
     model.is_ballistic() && links.iter().zip(&island.contacts).all(|(link, contact)| still(link, contact))
 }
-
-/// Parts of an integrated segment at whose ends the pressure is looked at. A step of the integrator is short
-/// against the time in which a smooth force turns round twice.
-const PRESSURE_SAMPLES: u32 = 8;
 
 /// First time on their present segments at which some contacts of an island are no longer pressed, and
 /// which. On parabolas that never happens.

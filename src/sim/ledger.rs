@@ -12,6 +12,11 @@ use super::state::State;
 pub(super) fn record(state: &mut State, mut event: Event) {
     state.sequence += 1;
     event.seq = state.sequence;
+    debug_assert_eq!(
+        EventKind::ALL[event.kind as usize],
+        event.kind,
+        "counters are in the order of the kinds"
+    );
     state.counters.events[event.kind as usize] += 1;
     state.outbox.push_back(event);
 }

@@ -38,6 +38,7 @@ mod roots;
 mod settle;
 mod stepping;
 mod tiles;
+mod tolerance;
 
 // What moves.
 mod account;

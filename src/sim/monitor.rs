@@ -81,7 +81,7 @@ fn for_each_neighbour(model: &Model, state: &State, mut visit: impl FnMut(Pair) 
     for body in model.present() {
         others.clear();
         let range = state.registered[body as usize];
-        state.moving.visit(&model.grid, range, None, |other| {
+        state.dynamic_tiles.visit(&model.grid, range, None, |other| {
             if other > body {
                 others.push(BodyId::of_dynamic(other));
             }
@@ -99,21 +99,21 @@ fn for_each_neighbour(model: &Model, state: &State, mut visit: impl FnMut(Pair) 
 /// The occupied tiles, at most `limit` of them, those with dynamic bodies first.
 pub(super) fn tiling(model: &Model, state: &State, limit: usize) -> Tiling {
     let grid = &model.grid;
-    let mut tiles = state.moving.occupied(grid);
-    let with_moving = tiles.len();
-    let only_fixed: Vec<[u32; 3]> = (model.static_tiles.occupied().iter().copied())
-        .filter(|tile| tiles[..with_moving].binary_search(tile).is_err())
+    let mut tiles = state.dynamic_tiles.occupied(grid);
+    let with_dynamic = tiles.len();
+    let only_static: Vec<[u32; 3]> = (model.static_tiles.occupied().iter().copied())
+        .filter(|tile| tiles[..with_dynamic].binary_search(tile).is_err())
         .take(limit + 1)
         .collect();
-    tiles.extend(only_fixed);
+    tiles.extend(only_static);
     let truncated = tiles.len() > limit;
     tiles.truncate(limit);
     tiles.sort_unstable();
     let occupied = tiles
         .into_iter()
         .map(|tile| {
-            let fixed = model.static_tiles.bodies(grid, tile).len() as u32;
-            (tile, fixed, state.moving.bodies(grid, tile).len() as u32)
+            let statics = model.static_tiles.bodies(grid, tile).len() as u32;
+            (tile, statics, state.dynamic_tiles.bodies(grid, tile).len() as u32)
         })
         .collect();
     Tiling { tile_size: grid.tile_size, tiles: grid.counts, occupied, truncated }

@@ -13,12 +13,13 @@ use super::queue::Kind;
 use super::roots::first_root;
 use super::state::{Scratch, State};
 use super::tiles::{TileRange, for_each_brick};
+use super::tolerance::{BOX_MARGIN, BOX_ROUNDING, LATER, LATER_ROUNDING};
 
 /// How much larger than the body its registered box is, m: more than root finding can be off, and than bodies
 /// are apart that touch.
 fn margin(model: &Model, radius: f64, position: DVec3) -> f64 {
-    let rounding = 1e-12 * model.grid.tile_size.max_element().max(position.abs().max_element());
-    1e-6 * radius + rounding + model.params.contact_distance
+    let rounding = BOX_ROUNDING * model.grid.tile_size.max_element().max(position.abs().max_element());
+    BOX_MARGIN * radius + rounding + model.params.contact_distance
 }
 
 /// Tiles of a body's box, rounded outwards.
@@ -32,7 +33,7 @@ pub(super) fn enter(model: &Model, state: &mut State, body: u32, time: f64) {
     let position = state.position(body, time);
     let range = range_at(model, model.radius(body), position);
     state.registered[body as usize] = range;
-    state.moving.insert(&model.grid, range, body);
+    state.dynamic_tiles.insert(&model.grid, range, body);
 }
 
 /// Makes all predictions about a body that has just begun a segment at `time`.
@@ -53,7 +54,7 @@ pub(super) fn reregister(model: &Model, state: &mut State, body: u32, time: f64)
     let old = state.registered[body as usize];
     let new = range_at(model, model.radius(body), state.position(body, time));
     if new != old {
-        state.moving.change(&model.grid, old, new, body);
+        state.dynamic_tiles.change(&model.grid, old, new, body);
         state.registered[body as usize] = new;
         state.counters.tile_crossings += 1;
         predict_neighbours(model, state, body, new, Some(old), time);
@@ -122,14 +123,14 @@ fn predict_neighbours(
     let mut scratch = std::mem::take(&mut state.scratch);
     collect(model, state, &mut scratch, body, range, known);
     let from = ball(model, state, body);
-    let looked_at = scratch.found_moving.len();
+    let looked_at = scratch.found_dynamic.len();
     let near = model.params.contact_distance;
-    scratch.found_moving.retain(|other| !predict::surely_pass(from, ball(model, state, *other), near));
-    state.counters.pair_tests += (looked_at - scratch.found_moving.len()) as u64;
-    for other in &scratch.found_moving {
+    scratch.found_dynamic.retain(|other| !predict::surely_pass(from, ball(model, state, *other), near));
+    state.counters.pair_tests += (looked_at - scratch.found_dynamic.len()) as u64;
+    for other in &scratch.found_dynamic {
         predict_pair(model, state, Pair::of(body, BodyId::of_dynamic(*other)), f64::NEG_INFINITY, time);
     }
-    for other in &scratch.found_fixed {
+    for other in &scratch.found_static {
         predict_pair(model, state, Pair::of(body, BodyId::of_static(*other)), f64::NEG_INFINITY, time);
     }
     state.scratch = scratch;
@@ -146,28 +147,28 @@ fn collect(
 ) {
     scratch.begin(state.segments.len(), model.bodies.static_len());
     let epoch = scratch.epoch;
-    scratch.seen_moving[body as usize] = epoch;
-    let Scratch { seen_moving, seen_fixed, found_moving, found_fixed, .. } = scratch;
-    let mut see_moving = |other: u32| {
+    scratch.seen_dynamic[body as usize] = epoch;
+    let Scratch { seen_dynamic, seen_static, found_dynamic, found_static, .. } = scratch;
+    let mut see_dynamic = |other: u32| {
         // With who is in the old tiles too, the next impact is predicted already.
         if known.is_some_and(|known| known.overlaps(&state.registered[other as usize])) {
             return;
         }
-        if std::mem::replace(&mut seen_moving[other as usize], epoch) != epoch {
-            found_moving.push(other);
+        if std::mem::replace(&mut seen_dynamic[other as usize], epoch) != epoch {
+            found_dynamic.push(other);
         }
     };
-    let mut see_fixed = |other: u32| {
-        if std::mem::replace(&mut seen_fixed[other as usize], epoch) != epoch {
-            found_fixed.push(other);
+    let mut see_static = |other: u32| {
+        if std::mem::replace(&mut seen_static[other as usize], epoch) != epoch {
+            found_static.push(other);
         }
     };
     for_each_brick(&model.grid, range, known, |brick, tiles| {
-        state.moving.visit_brick(brick, tiles, &mut see_moving);
-        model.static_tiles.visit_brick(brick, tiles, &mut see_fixed);
+        state.dynamic_tiles.visit_brick(brick, tiles, &mut see_dynamic);
+        model.static_tiles.visit_brick(brick, tiles, &mut see_static);
     });
     if known.is_none() {
-        scratch.found_fixed.extend(model.static_tiles.large());
+        scratch.found_static.extend(model.static_tiles.large());
     }
 }
 
@@ -175,7 +176,7 @@ fn collect(
 pub(super) fn near(model: &Model, state: &State, body: u32) -> Vec<BodyId> {
     let mut found: Vec<BodyId> = Vec::new();
     let range = state.registered[body as usize];
-    state.moving.visit(&model.grid, range, None, |other| found.push(BodyId::of_dynamic(other)));
+    state.dynamic_tiles.visit(&model.grid, range, None, |other| found.push(BodyId::of_dynamic(other)));
     model.static_tiles.visit(&model.grid, range, None, |other| found.push(BodyId::of_static(other)));
     found.extend(model.static_tiles.large().iter().map(|other| BodyId::of_static(*other)));
     found.sort_unstable();
@@ -206,8 +207,7 @@ pub(super) fn predict_pair(model: &Model, state: &mut State, pair: Pair, from: f
 /// Where to go on looking after a prediction that led to nothing: the same time would only give the same
 /// answer.
 pub(super) fn a_little_after(time: f64) -> f64 {
-    const LATER: f64 = 1e-9;
-    time + LATER.max(4.0 * f64::EPSILON * time)
+    time + LATER.max(LATER_ROUNDING * time)
 }
 
 /// Whether two dynamic bodies touch to within the contact distance and will for a while: an impact on one
@@ -224,16 +224,16 @@ fn lies_against(model: &Model, state: &State, a: u32, b: u32, time: f64) -> bool
 }
 
 impl Scratch {
-    fn begin(&mut self, moving: usize, fixed: usize) {
-        self.found_moving.clear();
-        self.found_fixed.clear();
+    fn begin(&mut self, dynamic: usize, statics: usize) {
+        self.found_dynamic.clear();
+        self.found_static.clear();
         self.epoch = self.epoch.wrapping_add(1);
         if self.epoch == 0 {
-            self.seen_moving.fill(0);
-            self.seen_fixed.fill(0);
+            self.seen_dynamic.fill(0);
+            self.seen_static.fill(0);
             self.epoch = 1;
         }
-        self.seen_moving.resize(moving, 0);
-        self.seen_fixed.resize(fixed, 0);
+        self.seen_dynamic.resize(dynamic, 0);
+        self.seen_static.resize(statics, 0);
     }
 }

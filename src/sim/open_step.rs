@@ -55,8 +55,8 @@ pub(super) struct SetSearch {
 /// Bodies that could meet in this Δt, and those that do.
 #[derive(Clone, Debug)]
 pub(super) struct LocalSet {
-    pub moving: Vec<u32>,
-    pub fixed: Vec<u32>,
+    pub dynamic: Vec<u32>,
+    pub statics: Vec<u32>,
     pub hits: Vec<Hit>,
     /// Collisions that may still be resolved.
     pub left: u32,

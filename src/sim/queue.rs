@@ -224,6 +224,16 @@ mod tests {
         assert_eq!(order([3, 2, 1, 0]), [9, 1, 2, 3]);
     }
 
+    /// A body that touches another and a wall at once meets the other first, whatever their numbers.
+    #[test]
+    fn at_one_time_what_is_between_dynamic_bodies_comes_first() {
+        let mut queue = Queue::default();
+        let wall = Predicted { b: BodyId::of_static(0), ..predicted(1.0, 2, 0) };
+        [wall, predicted(1.0, 7, 0), predicted(1.0, 2, 0)].into_iter().for_each(|p| queue.push(p));
+        let order = std::iter::from_fn(|| queue.pop(1.0, &mut 0, |_| true)).map(|p| (p.a, p.b.is_static()));
+        assert_eq!(order.collect::<Vec<_>>(), [(2, false), (7, false), (2, true)]);
+    }
+
     #[test]
     fn stale_entries_do_not_pile_up() {
         let mut queue = Queue::default();

@@ -58,6 +58,10 @@ pub(super) fn restart(model: &Model, state: &mut State, time: f64, starts: &[Sta
 /// Begins segments for bodies and all that they are in contact with; gives them all.
 fn begin_islands(model: &Model, state: &mut State, time: f64, starts: &[Start]) -> Result<Vec<u32>, Fault> {
     let bodies = connected(state, starts.iter().map(|start| start.body));
+    debug_assert!(
+        bodies.iter().all(|body| state.has_symmetric_contacts(*body)),
+        "both bodies list a contact"
+    );
     let given: BTreeMap<u32, &Start> = starts.iter().map(|start| (start.body, start)).collect();
     let island = |state: &State, ids: Vec<u32>| {
         Island::new(model, state, ids, |body| match given.get(&body) {

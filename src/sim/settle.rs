@@ -5,7 +5,8 @@ use glam::DVec3;
 use super::constraint::{Link, enter_none, largest_push, stay_on};
 use super::group::{Group, Member};
 use super::model::Model;
-use super::predict::{PRESSURE_ROUNDING, touch_tolerance};
+use super::predict::touch_tolerance;
+use super::tolerance::{PRESSURE_ROUNDING, SETTLING_ACCELERATION};
 
 /// A contact of a group that lasts from now on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,12 +49,9 @@ fn could_last(model: &Model, group: &Group, index: usize) -> Option<Candidate> {
     let member = &group.members[index];
     let parting = -group.closing(member);
     let is_undisturbed = member.is_lasting && parting <= group.rounding(member);
-    let slow = model.params.rest_speed.max((SLOWEST * slack(model, group, member)).sqrt());
+    let slow = model.params.rest_speed.max((SETTLING_ACCELERATION * slack(model, group, member)).sqrt());
     (is_undisturbed || parting <= slow).then_some(Candidate { member: index, is_undisturbed, flights: 0.0 })
 }
-
-/// More than any acceleration times two that is worth a thought, m/s²: a first, coarse sieve.
-const SLOWEST: f64 = 1e6;
 
 fn slack(model: &Model, group: &Group, member: &Member) -> f64 {
     touch_tolerance(group.bodies.x[member.link.a], model.radius(member.pair.first()))

@@ -15,7 +15,7 @@ use super::pair::Pair;
 use super::queue::{Kind, Predicted, Queue};
 use super::report::{ContactState, Counters};
 use super::segment::{Path, Segment, Series};
-use super::tiles::{MovingTiles, TileRange};
+use super::tiles::{DynamicTiles, TileRange};
 
 /// Mutable part of a simulation; a clone of it is a bit-exact snapshot.
 #[derive(Clone, Debug)]
@@ -40,7 +40,7 @@ pub(super) struct State {
     pub touching: Vec<Vec<u32>>,
     /// The impacts of each body that follow each other closely.
     pub cascades: Vec<Cascade>,
-    pub moving: MovingTiles,
+    pub dynamic_tiles: DynamicTiles,
     pub queue: Queue,
     /// The Δt that a method which steps by it is in.
     pub step: Option<Box<OpenStep>>,
@@ -72,10 +72,10 @@ pub(super) struct Cascade {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Scratch {
     pub epoch: u32,
-    pub seen_moving: Vec<u32>,
-    pub seen_fixed: Vec<u32>,
-    pub found_moving: Vec<u32>,
-    pub found_fixed: Vec<u32>,
+    pub seen_dynamic: Vec<u32>,
+    pub seen_static: Vec<u32>,
+    pub found_dynamic: Vec<u32>,
+    pub found_static: Vec<u32>,
 }
 
 impl State {
@@ -93,7 +93,7 @@ impl State {
             contacts: Vec::with_capacity(origins.len()),
             touching: Vec::with_capacity(origins.len()),
             cascades: Vec::with_capacity(origins.len()),
-            moving: MovingTiles::default(),
+            dynamic_tiles: DynamicTiles::default(),
             queue: Queue::default(),
             step: None,
             outbox: VecDeque::new(),
@@ -131,7 +131,7 @@ impl State {
     pub fn path_of<'a>(&'a self, model: &'a Model, id: BodyId) -> Path<'a> {
         match id.dynamic() {
             Some(body) => self.path(body),
-            None => Path { segment: model.bodies.place(id.index()), series: None },
+            None => Path { segment: model.bodies.static_segment(id.index()), series: None },
         }
     }
 
@@ -179,6 +179,17 @@ impl State {
     /// The lasting contact of a pair.
     pub fn contact(&self, pair: Pair) -> Option<&Contact> {
         self.contacts[pair.first() as usize].iter().find(|contact| contact.other == pair.b)
+    }
+
+    /// Whether the dynamic bodies that a body is in contact with list the same contact.
+    pub fn has_symmetric_contacts(&self, body: u32) -> bool {
+        let listed = |back: &Contact, contact: &Contact| {
+            back.other.dynamic() == Some(body) && back.settles_at == contact.settles_at
+        };
+        self.contacts[body as usize].iter().all(|contact| {
+            let other = contact.other.dynamic();
+            other.is_none_or(|other| self.contacts[other as usize].iter().any(|back| listed(back, contact)))
+        })
     }
 
     /// Notes that two dynamic bodies lie against each other.

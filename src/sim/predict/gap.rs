@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::sim::segment::Path;
+use crate::sim::tolerance::{PRESSURE_ROUNDING, STILL, TOUCH};
 
 /// Distance of two surfaces along two segments at one time, and its first two derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,21 +47,16 @@ impl Ball<'_> {
 /// Zero if `value` is no more than the rounding of something of this size. Without it a body that glides
 /// along a surface would seem to hit or leave it, now and then, by 1e-17.
 pub(super) fn snap(value: f64, size: f64) -> f64 {
-    const ROUNDING: f64 = 16.0 * f64::EPSILON;
-    if value.abs() <= ROUNDING * size { 0.0 } else { value }
+    if value.abs() <= STILL * size { 0.0 } else { value }
 }
 
-/// The rounding of the acceleration that presses bodies together, as a fraction of their accelerations:
-/// surfaces at rest against each other are pressed above it, parted below its negative, and neither between.
-pub(in crate::sim) const PRESSURE_ROUNDING: f64 = 1e-12;
-
-/// As [`snap`], for accelerations.
+/// As [`snap`], for accelerations: surfaces at rest against each other are pressed above the rounding, parted below
+/// its negative, and neither between.
 pub(super) fn snap_pressure(value: f64, size: f64) -> f64 {
     if value.abs() <= PRESSURE_ROUNDING * size { 0.0 } else { value }
 }
 
-/// Surfaces at rest against each other to within this are taken to touch, m. A few roundings at the
-/// coordinate size.
+/// Surfaces at rest against each other to within this are taken to touch, m.
 pub(in crate::sim) fn touch_tolerance(at: DVec3, radius: f64) -> f64 {
-    8.0 * f64::EPSILON * at.abs().max_element().max(radius)
+    TOUCH * at.abs().max_element().max(radius)
 }

@@ -13,13 +13,13 @@ mod sphere_sphere;
 use glam::DVec3;
 
 use super::segment::{Path, Segment};
-use super::shape::{Convex, Plate};
+use super::shape::{Convex, Plate, Shape};
 
 pub(super) use beyond::first_beyond;
-pub(super) use gap::{Ball, Gap, PRESSURE_ROUNDING, touch_tolerance};
+pub(super) use gap::{Ball, Gap, touch_tolerance};
 pub(super) use sphere_sphere::surely_pass;
 
-/// What a dynamic sphere may meet: another body as prediction sees it. The list of pairs that are supported.
+/// What a dynamic sphere may meet: another body as prediction sees it. The list of pairs.
 #[derive(Clone, Copy)]
 pub(super) enum Target<'a> {
     Dynamic(Ball<'a>),
@@ -27,6 +27,18 @@ pub(super) enum Target<'a> {
     Plate(&'a Plate),
     /// Any other shape, placed at a point.
     Convex(&'a dyn Convex, DVec3),
+}
+
+impl<'a> Target<'a> {
+    /// A static body: one arm for each shape with a file of its own here.
+    pub fn at_rest(shape: &'a Shape, path: Path<'a>) -> Self {
+        match shape {
+            Shape::Sphere(sphere) => Self::Sphere(Ball { path, radius: sphere.radius }),
+            Shape::Plate(plate) => Self::Plate(plate),
+            #[allow(unreachable_patterns, reason = "all shapes so far have closed forms")]
+            other => Self::Convex(other.convex(), path.segment.x),
+        }
+    }
 }
 
 /// First time, not before `from` nor before both segments begin and not after either ends, at which a dynamic

@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::advance::{Search, first_contact as advance};
 use super::gap::{Ball, Gap, snap, snap_pressure};
 use crate::sim::shape::direction;
+use crate::sim::tolerance::SURELY_APART;
 
 /// Relative motion of `b` as seen from `a`.
 struct Relative {
@@ -91,7 +92,7 @@ fn gap_of(relative: &Relative, at: DVec3, radius_a: f64, radius_b: f64) -> Gap {
 /// (p·v)² − v²(p² − R²) = v²R² − |p×v|²: no cancellation when far away, which tells a graze from a miss.
 fn misses(p: DVec3, v: DVec3, reach: f64) -> bool {
     (v.length_squared() * reach * reach < p.cross(v).length_squared())
-        & (p.length_squared() > (1.0 + 1e-9) * reach * reach)
+        & (p.length_squared() > (1.0 + SURELY_APART) * reach * reach)
 }
 
 /// First τ ≥ 0 with |p + vτ| = R while closing. `speeds` is the size of the speeds whose difference v is.

@@ -36,9 +36,6 @@ impl Shape {
 
     /// Radius of a sphere, m; 0 for what is none.
     pub fn radius(&self) -> f64 {
-        match self {
-            Self::Sphere(sphere) => sphere.radius,
-            _ => 0.0,
-        }
+        if let Self::Sphere(sphere) = self { sphere.radius } else { 0.0 }
     }
 }

@@ -25,13 +25,12 @@ pub(super) fn hit(model: &Model, state: &mut State, pair: Pair, from: f64, to: f
 
 /// Whether two bodies overlap: the test that is made most.
 fn overlaps(model: &Model, state: &State, pair: Pair, time: f64) -> bool {
-    match &model.body(pair.b).shape {
-        Shape::Sphere(other) => {
-            let at = state.position(pair.first(), time);
-            let reach = model.radius(pair.first()) + other.radius;
-            (state.path_of(model, pair.b).position(time) - at).length_squared() < reach * reach
-        }
-        _ => gap_of(model, state, pair, time).distance < 0.0,
+    if let Shape::Sphere(other) = &model.body(pair.b).shape {
+        let at = state.position(pair.first(), time);
+        let reach = model.radius(pair.first()) + other.radius;
+        (state.path_of(model, pair.b).position(time) - at).length_squared() < reach * reach
+    } else {
+        gap_of(model, state, pair, time).distance < 0.0
     }
 }
 

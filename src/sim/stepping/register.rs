@@ -9,7 +9,7 @@ pub(super) fn register(model: &Model, state: &mut State, body: u32, time: f64) {
     let new = model.grid.range(position - radius, position + radius);
     let old = state.registered[body as usize];
     if new != old {
-        state.moving.change(&model.grid, old, new, body);
+        state.dynamic_tiles.change(&model.grid, old, new, body);
         state.registered[body as usize] = new;
         state.counters.tile_crossings += 1;
     }

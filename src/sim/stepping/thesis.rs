@@ -37,7 +37,9 @@ impl SetSearch {
     }
 
     pub fn resolve(&mut self, model: &Model, state: &mut State, hit: &Hit, end: f64) -> Result<(), Fault> {
-        let Some(set) = self.sets.iter_mut().find(|set| set.hits.contains(hit)) else { return Ok(()) };
+        let Some(set) = self.sets.iter_mut().find(|set| set.hits.contains(hit)) else {
+            return Err(Fault::internal(hit.time, "a collision is in no local set"));
+        };
         set.resolve(model, state, hit, end)
     }
 }
@@ -51,11 +53,11 @@ impl LocalSet {
         let index = |body: &BodyRef| match *body {
             BodyRef::Dynamic(index) | BodyRef::Static(index) => index,
         };
-        let moving: Vec<u32> = set.dynamic.iter().map(index).collect();
+        let dynamic: Vec<u32> = set.dynamic.iter().map(index).collect();
         let large = model.static_tiles.large().iter().copied();
-        let fixed = set.fixed.iter().map(index).chain(large).collect();
-        let left = StepLimits::DEFAULT.collisions.saturating_mul(moving.len() as u32);
-        Self { moving, fixed, hits: Vec::new(), left }
+        let statics = set.fixed.iter().map(index).chain(large).collect();
+        let left = StepLimits::DEFAULT.collisions.saturating_mul(dynamic.len() as u32);
+        Self { dynamic, statics, hits: Vec::new(), left }
     }
 
     fn earliest(&self) -> Option<Hit> {
@@ -69,7 +71,7 @@ impl LocalSet {
         if single {
             collide(model, state, hit, hit.pair.dynamic())?;
         } else {
-            collide(model, state, hit, self.moving.iter().copied())?;
+            collide(model, state, hit, self.dynamic.iter().copied())?;
         }
         self.left -= 1;
         self.look(model, state, hit.time, end, single.then_some(hit));
@@ -84,15 +86,15 @@ impl LocalSet {
     fn look(&mut self, model: &Model, state: &mut State, from: f64, end: f64, around: Option<&Hit>) {
         let concerned = |body: u32| around.is_none_or(|around| around.involves(body));
         self.hits.clear();
-        for (index, &body) in self.moving.iter().enumerate() {
-            for &other in &self.moving[index + 1..] {
+        for (index, &body) in self.dynamic.iter().enumerate() {
+            for &other in &self.dynamic[index + 1..] {
                 if concerned(body) || concerned(other) {
                     let pair = Pair::of(body, BodyId::of_dynamic(other));
                     self.hits.extend(hit(model, state, pair, from, end));
                 }
             }
             if concerned(body) {
-                for &other in &self.fixed {
+                for &other in &self.statics {
                     let pair = Pair::of(body, BodyId::of_static(other));
                     self.hits.extend(hit(model, state, pair, from, end));
                 }

@@ -35,7 +35,7 @@ impl StaticTiles {
         let mut entries: Vec<(BrickTile, u32)> = Vec::new();
         let mut large = Vec::new();
         for index in bodies.present_statics() {
-            let at = bodies.place(index).x;
+            let at = bodies.static_segment(index).x;
             let shape = bodies.get(BodyId::of_static(index)).shape.convex();
             let (low, high) = shape.bounds(at);
             let margin = margin(low, high);
