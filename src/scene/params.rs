@@ -5,10 +5,9 @@
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SimParams {
     pub field_tolerance: f64,
-    pub rest_speed: f64,
+    pub rest_height: f64,
     pub rest_time: f64,
-    pub contact_duration: f64,
-    pub collapse_count: f64,
+    pub collapse_share: f64,
     pub contact_distance: f64,
     pub core_radius: f64,
     pub static_tile_limit: f64,
@@ -18,11 +17,10 @@ impl Default for SimParams {
     fn default() -> Self {
         Self {
             field_tolerance: 1e-8,
-            rest_speed: 1e-5,
-            rest_time: 1e-2,
-            contact_duration: 4e-5,
-            collapse_count: 32.0,
-            contact_distance: 1e-9,
+            rest_height: 1e-11,
+            rest_time: 0.03,
+            collapse_share: 1e-6,
+            contact_distance: 2e-9,
             core_radius: 1e-6,
             static_tile_limit: 4096.0,
         }
@@ -59,57 +57,48 @@ pub const PARAMS: &[ParamInfo] = &[
         set: |p, v| p.field_tolerance = v,
     },
     ParamInfo {
-        name: "RestSpeed",
-        label: "Rest speed",
-        unit: "m/s",
-        range: (0.0, 1.0),
-        help: "A pressed, inelastic body whose normal speed after an impact is below this may come to \
-               rest at the limit time of its remaining bounces. The bounce left out is at most v²/2g \
-               high: 5e-12 m at the default on Earth. At 0 such a body bounces until that \
-               is below the rounding of its position.",
-        get: |p| p.rest_speed,
-        set: |p, v| p.rest_speed = v,
+        name: "RestHeight",
+        label: "Rest height",
+        unit: "radius",
+        range: (0.0, 0.1),
+        help: "A pressed, inelastic body whose next bounce would be lower than this share of its radius may \
+               come to rest at the limit time of its remaining bounces: from 1e-5 m/s on for a radius of \
+               half a metre on Earth. At 0 it bounces until that is below the rounding of its position.",
+        get: |p| p.rest_height,
+        set: |p, v| p.rest_height = v,
     },
     ParamInfo {
         name: "RestTime",
         label: "Rest time",
-        unit: "s",
-        range: (0.0, 1.0),
-        help: "Longest sum of remaining flights 2v/(g(1−e)) that is skipped when a body comes to rest. \
-               The forces count as constant over that time; the rest event comes at its end. Keeps a nearly \
-               elastic body bouncing until the sum is short.",
+        unit: "fall time",
+        range: (0.0, 10.0),
+        help: "Longest sum of remaining flights 2v/(g(1−e)) that is skipped when a body comes to rest, as a \
+               share of the time √(2r/g) in which it would fall by its radius. The forces count as constant \
+               over that time; the rest event comes at its end. Keeps a nearly elastic body bouncing until \
+               the sum is short.",
         get: |p| p.rest_time,
         set: |p, v| p.rest_time = v,
     },
     ParamInfo {
-        name: "ContactDuration",
-        label: "Contact duration",
-        unit: "s",
-        range: (1e-9, 1.0),
-        help: "Impacts of one body that follow each other within this time count as one cascade; see \
-               Collapse count. Smaller follows a collapse further and takes longer. Impacts \
-               within a thousandth of it are of one instant.",
-        get: |p| p.contact_duration,
-        set: |p, v| p.contact_duration = v,
-    },
-    ParamInfo {
-        name: "CollapseCount",
-        label: "Collapse count",
+        name: "CollapseShare",
+        label: "Collapse share",
         unit: "",
-        range: (1.0, 1e6),
-        help: "Impacts of one cascade that lose energy before the rest of it is taken as plastic \
-               (restitution 0), so that an inelastic collapse stays finite. Above the length of chains of \
-               touching balls, so that those keep their restitution.",
-        get: |p| p.collapse_count,
-        set: |p, v| p.collapse_count = v.round(),
+        range: (1e-12, 0.1),
+        help: "Two bodies that lose energy in impacts and meet slower than this share of the speed at which \
+               they met others shortly before are in an inelastic collapse: what follows is taken as plastic \
+               (restitution 0), so that it stays finite. The energy left then is the square of this share. \
+               Smaller follows a collapse further and takes longer.",
+        get: |p| p.collapse_share,
+        set: |p, v| p.collapse_share = v,
     },
     ParamInfo {
         name: "ContactDistance",
         label: "Contact distance",
-        unit: "m",
-        range: (1e-12, 1e-3),
-        help: "Bodies nearer than this at an impact touch: they are resolved as one group. Overlaps at the \
-               start are reported above it. Above rounding at map sizes up to 1e5 m.",
+        unit: "radius",
+        range: (1e-12, 1e-2),
+        help: "Bodies nearer than this share of the smaller radius at an impact touch: they are resolved as \
+               one group. Overlaps at the start are reported above it. Above rounding at map sizes up to \
+               1e5 m.",
         get: |p| p.contact_distance,
         set: |p, v| p.contact_distance = v,
     },

@@ -4,19 +4,19 @@ use super::body::BodyId;
 use super::event::{Event, EventKind};
 use super::fault::Fault;
 use super::force::Law;
-use super::geometry::gap_of;
+use super::geometry::{contact_distance, gap_of, larger_radius};
 use super::impact;
 use super::island::part;
 use super::ledger::{record, record_contact};
 use super::model::Model;
 use super::motion::turn_back;
-use super::neighbours::{a_little_after, predict_core_passes, predict_pair, reregister};
+use super::neighbours::{predict_core_passes, predict_later, predict_pair, reregister};
 use super::pair::Pair;
 use super::predict::{Gap, touch_tolerance};
 use super::queue::{Kind, Predicted};
 use super::restart::{Start, restart};
 use super::state::State;
-use super::tolerance::{FOUND, SAME_INSTANT, TIME_ROUNDING};
+use super::tolerance::{FOUND, TIME_ROUNDING};
 
 /// Carries out the next predicted event that is not after `state.until`; false when there is none.
 /// What it has to report is left in the outbox.
@@ -75,9 +75,12 @@ fn from_now(state: &State, body: u32, time: f64) -> Start {
 fn meet(model: &Model, state: &mut State, next: &Predicted) -> Result<(), Fault> {
     let (pair, time) = (next.pair(), next.time);
     let gap = gap_of(model, state, pair, time);
-    if !(gap.is_closing() && is_closed(&gap, reach(model, pair), time)) {
-        let from = if gap.is_closing() { time } else { a_little_after(time) };
-        predict_pair(model, state, pair, from, time);
+    if !(gap.is_closing() && is_closed(&gap, larger_radius(model, pair), time)) {
+        if gap.is_closing() {
+            predict_pair(model, state, pair, time, time);
+        } else {
+            predict_later(model, state, pair, time);
+        }
         return Ok(());
     }
     let [also, rest] = simultaneous(model, state, pair, time, &gap);
@@ -93,10 +96,12 @@ fn meet(model: &Model, state: &mut State, next: &Predicted) -> Result<(), Fault>
 /// within the contact distance and close. And the other predictions of that instant. (A pair may have been
 /// predicted twice.)
 fn simultaneous(model: &Model, state: &mut State, pair: Pair, time: f64, gap: &Gap) -> [Vec<Predicted>; 2] {
-    let params = &model.params;
-    let longest = SAME_INSTANT * params.contact_duration;
-    let window = (params.contact_distance / gap.rate.abs()).min(longest);
+    let near = contact_distance(model, pair, gap.point);
     let (mut also, mut rest) = (Vec::new(), Vec::new());
+    // Mostly there is nothing at all within the time in which these two come nearer by that.
+    let Some(first) = pop(state, time + near / gap.rate.abs()) else { return [also, rest] };
+    state.queue.push(first);
+    let window = time_to_move(state, pair, time, gap, near);
     while let Some(next) = pop(state, time + window) {
         let is_impact = next.kind == Kind::Impact;
         if is_impact && next.pair() == pair {
@@ -104,16 +109,18 @@ fn simultaneous(model: &Model, state: &mut State, pair: Pair, time: f64, gap: &G
         }
         let meets = || {
             let gap = gap_of(model, state, next.pair(), time);
-            gap.rate < 0.0 && gap.distance <= params.contact_distance
+            gap.rate < 0.0 && gap.distance <= contact_distance(model, next.pair(), gap.point)
         };
         if is_impact && meets() { also.push(next) } else { rest.push(next) }
     }
     [also, rest]
 }
 
-/// The larger radius of a pair, m.
-fn reach(model: &Model, pair: Pair) -> f64 {
-    pair.dynamic().map(|body| model.radius(body)).fold(0.0, f64::max)
+/// The time in which a body of a pair moves by a distance, or the two come nearer by it, s.
+fn time_to_move(state: &State, pair: Pair, time: f64, gap: &Gap, distance: f64) -> f64 {
+    let speed = pair.dynamic().map(|body| state.velocity(body, time).length()).fold(gap.rate.abs(), f64::max);
+    let window = (distance / speed).min((2.0 * distance / gap.bend.abs()).sqrt());
+    if window.is_finite() { window } else { 0.0 }
 }
 
 /// Whether surfaces are as near as a found root leaves them: a search that gave up is farther off. A root

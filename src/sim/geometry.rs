@@ -10,6 +10,7 @@ use super::predict::{self, Ball, Gap, Target};
 use super::restitution::of_pair;
 use super::shape::{Surface, direction};
 use super::state::State;
+use super::tolerance::TOUCHES;
 
 /// A dynamic body as prediction sees it.
 pub(super) fn ball<'a>(model: &Model, state: &'a State, body: u32) -> Ball<'a> {
@@ -38,6 +39,22 @@ pub(super) fn gap_of(model: &Model, state: &State, pair: Pair, time: f64) -> Gap
 /// Product of the two Bounce values.
 pub(super) fn restitution_of(model: &Model, pair: Pair) -> f64 {
     of_pair(model.body(pair.a).bounce, model.body(pair.b).bounce)
+}
+
+/// Radius of the smaller dynamic body of a pair, m: the length that its contacts are measured by.
+pub(super) fn smaller_radius(model: &Model, pair: Pair) -> f64 {
+    pair.dynamic().map(|body| model.radius(body)).fold(f64::INFINITY, f64::min)
+}
+
+/// Radius of the larger dynamic body of a pair, m.
+pub(super) fn larger_radius(model: &Model, pair: Pair) -> f64 {
+    pair.dynamic().map(|body| model.radius(body)).fold(0.0, f64::max)
+}
+
+/// Distance within which a pair near `at` touches, m.
+pub(super) fn contact_distance(model: &Model, pair: Pair, at: DVec3) -> f64 {
+    let radius = smaller_radius(model, pair);
+    (model.params.contact_distance * radius).max(TOUCHES * predict::touch_tolerance(at, radius))
 }
 
 /// Some bodies at one time, in the order of their indices.

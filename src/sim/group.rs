@@ -6,17 +6,18 @@
 //! velocity in it, v' = v − 2 M⁻¹Nᵀλ. Rounds go on until nothing closes. That keeps energy, momentum and
 //! every symmetry of the group, and hands one ball on for one through a row of touching ones.
 //!
-//! With restitution e < 1 there is no unique answer. The rule here: contacts of a round that are connected
-//! through moving bodies share one e̅, v' = v − (1 + e̅) M⁻¹Nᵀλ, with e̅² the mean of e² weighted with the
-//! energy λ·c that each contact takes up (c the closing speed). Such a round loses ½(1 − e̅²) Σ λc ≥ 0, and a
-//! contact alone obeys Newton's law. Where every e is 0, and where closing speeds have become rounding, all
-//! contacts of the group are taken at once and plastically (Moreau).
+//! With restitution e < 1 there is no unique answer. The rule here: contacts of a round that act on each other,
+//! nᵢM⁻¹nⱼᵀ ≠ 0, directly or through others, share one e̅, v' = v − (1 + e̅) M⁻¹Nᵀλ, with e̅² the mean of e²
+//! weighted with the energy λ·c that each contact takes up (c the closing speed). Such a round loses
+//! ½(1 − e̅²) Σ λc ≥ 0, and a contact on which no other acts obeys Newton's law: a ball that meets a bouncy wall and
+//! a plastic floor at once leaves them as if it had met them in turn. Where every e is 0, and where closing speeds
+//! have fallen to next to nothing, all contacts of the group are taken at once and plastically (Moreau).
 
 use glam::DVec3;
 
 use super::body::BodyId;
 use super::constraint::{Link, enter_none};
-use super::geometry::{BodiesAt, gap_of, restitution_of, surface_of};
+use super::geometry::{BodiesAt, contact_distance, gap_of, restitution_of, surface_of};
 use super::island::Island;
 use super::model::Model;
 use super::neighbours::near;
@@ -24,7 +25,7 @@ use super::pair::Pair;
 use super::predict::Gap;
 use super::shape::Surface;
 use super::state::State;
-use super::tolerance::{CLOSING_ROUNDING, LARGEST_REST, SAME_INSTANT, SMALLEST_SHARE};
+use super::tolerance::{CLOSING_ROUNDING, NO_CHANGE, UNCOUPLED};
 
 /// Bodies that touch, at the time of an impact.
 pub(super) struct Group {
@@ -32,8 +33,10 @@ pub(super) struct Group {
     pub members: Vec<Member>,
     /// s.
     pub time: f64,
-    /// Momentum taken by what is fixed where bodies seize, kg·m/s.
-    pub seized: DVec3,
+    /// The largest speed before, m/s.
+    pub fastest: f64,
+    /// Energy taken by the law of each round, J: not what the velocities say, so that the books can tell.
+    pub loss: f64,
 }
 
 /// One contact of a group.
@@ -81,7 +84,8 @@ impl Group {
         pairs.sort_unstable();
         let bodies = Island::at(model, state, ids, time);
         let members = pairs.into_iter().map(|pair| member(model, state, &bodies, pair, time)).collect();
-        Self { bodies, members, time, seized: DVec3::ZERO }
+        let fastest = bodies.v.iter().map(|v| v.length()).fold(0.0, f64::max);
+        Self { bodies, members, time, fastest, loss: 0.0 }
     }
 
     /// The contacts as bounds on accelerations at the present velocities.
@@ -101,35 +105,45 @@ impl Group {
         CLOSING_ROUNDING * (speed(member.link.a) + member.link.b.map_or(0.0, speed))
     }
 
-    /// Rounds of reflections until nothing closes; whether they went on so long that it is an inelastic
-    /// collapse of several pairs of moving bodies. What is left when there would be no end is taken
-    /// plastically.
-    pub fn resolve(&mut self) -> bool {
-        let largest = self.members.iter().map(|member| member.before).fold(0.0, f64::max);
-        let mut rounds = 0;
-        while rounds < 100 + 20 * self.members.len() {
-            let closing = self.still_closing();
-            let Some(worst) = closing.iter().map(|k| self.closing(&self.members[*k])).reduce(f64::max) else {
-                return self.has_collapsed(rounds);
-            };
-            let is_plastic = self.members.iter().all(|member| member.restitution == 0.0);
-            if is_plastic || worst <= SMALLEST_SHARE * largest {
-                break;
-            }
-            for connected in self.split(&closing) {
-                self.reflect(&connected);
-            }
-            rounds += 1;
-        }
-        self.take_up();
-        self.has_collapsed(rounds)
+    /// Whether a contact took part in the impact by more than the rounding of its speeds.
+    pub fn is_felt(&self, member: &Member) -> bool {
+        let change = member.impulse * member.link.response(&member.link, &self.bodies.inverse_mass);
+        change > self.rounding(member).max(16.0 * f64::EPSILON * self.fastest)
     }
 
-    /// Whether pairs of moving bodies that lose energy met more often than a blow takes to run through the
-    /// group and back.
-    fn has_collapsed(&self, rounds: usize) -> bool {
-        let lossy = |member: &&Member| member.pair.second().is_some() && member.restitution < 1.0;
-        rounds > 4 + 2 * self.members.len() && self.members.iter().filter(lossy).count() > 1
+    /// Rounds of reflections until nothing closes; whether closing speeds fell without end, so that the rest was
+    /// taken plastically.
+    pub fn resolve(&mut self, smallest_share: f64) -> bool {
+        let largest = self.members.iter().map(|member| member.before).fold(0.0, f64::max);
+        let is_plastic = self.members.iter().all(|member| member.restitution == 0.0);
+        let rounds = 100 + 20 * self.members.len();
+        for round in 0..2 * rounds {
+            let closing = self.still_closing();
+            let Some(worst) = closing.iter().map(|k| self.closing(&self.members[*k])).reduce(f64::max) else {
+                return false;
+            };
+            let is_far_gone = round > 4 + 2 * self.members.len() && worst <= smallest_share * largest;
+            if is_plastic || is_far_gone {
+                break;
+            }
+            if round < rounds {
+                self.split(&closing).iter().for_each(|coupled| self.reflect(coupled));
+            } else {
+                // A light body between heavy ones would be thrown to and fro some √(M/m) times.
+                self.reflect(&(0..self.members.len()).collect::<Vec<_>>());
+            }
+        }
+        self.take_up();
+        !is_plastic
+    }
+
+    /// Gives bodies the velocity that they had where it changed by rounding only.
+    pub fn forget_rounding(&mut self, before: &[DVec3]) {
+        for (old, new) in before.iter().zip(&mut self.bodies.v) {
+            if (*new - *old).length() <= NO_CHANGE * self.fastest {
+                *new = *old;
+            }
+        }
     }
 
     /// Which of the members close now.
@@ -138,11 +152,19 @@ impl Group {
         (0..self.members.len()).filter(|k| closes(&self.members[*k])).collect()
     }
 
-    /// Splits contacts into those that share moving bodies, directly or through others.
+    /// Restitution of a contact in this impact: what it came to where others took part, else its own.
+    pub fn restitution_of(&self, member: &Member) -> f64 {
+        let parting = -self.closing(member);
+        let own = member.restitution;
+        if self.members.len() > 1 && member.before > 0.0 { own.min(parting / member.before) } else { own }
+    }
+
+    /// Splits contacts into those that act on each other, directly or through others: that share a moving body
+    /// on which an impulse at one changes what closes at the other.
     fn split(&self, contacts: &[usize]) -> Vec<Vec<usize>> {
         let mut sets: Vec<Vec<usize>> = Vec::new();
         for k in contacts {
-            let shares = |other: &usize| self.members[*k].link.shares_body(&self.members[*other].link);
+            let shares = |other: &usize| self.couples(*k, *other);
             let (mut joined, rest): (Vec<_>, Vec<_>) =
                 sets.into_iter().partition(|set| set.iter().any(shares));
             joined.push(vec![*k]);
@@ -155,77 +177,52 @@ impl Group {
         sets
     }
 
+    /// Whether an impulse at one contact changes what closes at another, by more than rounding.
+    fn couples(&self, k: usize, other: usize) -> bool {
+        let inverse_mass = &self.bodies.inverse_mass;
+        let response =
+            |a: usize, b: usize| self.members[a].link.response(&self.members[b].link, inverse_mass);
+        let both = response(k, other);
+        both * both > UNCOUPLED * UNCOUPLED * response(k, k) * response(other, other)
+    }
+
     /// Throws connected contacts back, all at once.
     fn reflect(&mut self, contacts: &[usize]) {
         let links: Vec<Link> = contacts.iter().map(|k| self.members[*k].link).collect();
         let closing: Vec<f64> = links.iter().map(|link| link.entering(&self.bodies.v)).collect();
-        let multipliers = enter_none(&links, &self.bodies.inverse_mass, &mut self.bodies.v.clone());
-        let taken = || multipliers.iter().zip(&closing).map(|(multiplier, closing)| multiplier * closing);
-        let total: f64 = taken().sum();
-        let first = self.members[contacts[0]].restitution;
-        let restitution = if contacts.iter().all(|k| self.members[*k].restitution == first) {
-            first
-        } else {
-            let restitutions = contacts.iter().map(|k| self.members[*k].restitution);
-            (restitutions.zip(taken()).map(|(e, taken)| e * e * taken).sum::<f64>() / total).sqrt()
-        };
+        let multipliers =
+            enter_none(&links, &self.bodies.inverse_mass, &mut self.bodies.v.clone()).multipliers;
+        let taken: Vec<f64> =
+            multipliers.iter().zip(&closing).map(|(multiplier, closing)| multiplier * closing).collect();
+        let restitution = self.shared_restitution(contacts, &taken);
         for ((k, link), multiplier) in contacts.iter().zip(links).zip(multipliers) {
             let impulse = (1.0 + restitution) * multiplier;
             link.push(&mut self.bodies.v, &self.bodies.inverse_mass, impulse);
             self.members[*k].impulse += impulse;
         }
+        self.loss += 0.5 * (1.0 - restitution) * (1.0 + restitution) * taken.iter().sum::<f64>();
+    }
+
+    /// √ of the mean of e², weighted with the energy that each contact takes up.
+    fn shared_restitution(&self, contacts: &[usize], taken: &[f64]) -> f64 {
+        let of = |k: &usize| self.members[*k].restitution;
+        let first = of(&contacts[0]);
+        if contacts.iter().all(|k| of(k) == first) {
+            return first;
+        }
+        let whole: f64 = taken.iter().map(|taken| taken.max(0.0)).sum();
+        let weighted = contacts.iter().zip(taken).map(|(k, taken)| of(k) * of(k) * taken.max(0.0));
+        if whole > 0.0 { (weighted.sum::<f64>() / whole).sqrt() } else { 0.0 }
     }
 
     /// Takes all that closes, plastically.
     fn take_up(&mut self) {
-        let largest = self.members.iter().map(|member| member.before).fold(0.0, f64::max);
         let links: Vec<Link> = self.members.iter().map(|member| member.link).collect();
-        let multipliers = enter_none(&links, &self.bodies.inverse_mass, &mut self.bodies.v);
-        for (member, multiplier) in self.members.iter_mut().zip(multipliers) {
+        let closing: Vec<f64> = links.iter().map(|link| link.entering(&self.bodies.v)).collect();
+        let multipliers = enter_none(&links, &self.bodies.inverse_mass, &mut self.bodies.v).multipliers;
+        for ((member, multiplier), closing) in self.members.iter_mut().zip(multipliers).zip(closing) {
             member.impulse += multiplier;
-        }
-        self.seize(LARGEST_REST * largest);
-    }
-
-    /// Stops what still closes faster than `speed`. Bodies wedged along one line, with normals that differ in
-    /// the eighth digit, would take impulses beyond all digits: they go on as one body, or not at all where
-    /// they touch something fixed.
-    fn seize(&mut self, speed: f64) {
-        let mut stuck: Vec<usize> = Vec::new();
-        // Each pass adds a contact at least.
-        for _ in 0..self.members.len() {
-            let still = self.still_closing();
-            let closing: Vec<usize> =
-                still.into_iter().filter(|k| self.closing(&self.members[*k]) > speed).collect();
-            if closing.is_empty() {
-                return;
-            }
-            stuck.extend(closing);
-            stuck.sort_unstable();
-            stuck.dedup();
-            for connected in self.split(&stuck) {
-                self.stop(&connected);
-            }
-        }
-    }
-
-    /// Gives the bodies of connected contacts one velocity.
-    fn stop(&mut self, contacts: &[usize]) {
-        let links = contacts.iter().map(|k| self.members[*k].link);
-        let mut bodies: Vec<usize> = links.flat_map(|link| [Some(link.a), link.b]).flatten().collect();
-        bodies.sort_unstable();
-        bodies.dedup();
-        let is_fixed = |member: &Member| member.link.b.is_none() && bodies.contains(&member.link.a);
-        let mass = |body: &usize| 1.0 / self.bodies.inverse_mass[*body];
-        let momentum: DVec3 = bodies.iter().map(|body| mass(body) * self.bodies.v[*body]).sum();
-        let common = if self.members.iter().any(is_fixed) {
-            self.seized -= momentum;
-            DVec3::ZERO
-        } else {
-            momentum / bodies.iter().map(mass).sum::<f64>()
-        };
-        for body in bodies {
-            self.bodies.v[body] = common;
+            self.loss += 0.5 * multiplier * closing;
         }
     }
 }
@@ -242,7 +239,10 @@ fn touching(
     let lasting = state.contacts[body as usize].iter().map(|contact| Pair::of(body, contact.other));
     let against =
         state.touching[body as usize].iter().map(|other| Pair::of(body, BodyId::of_dynamic(*other)));
-    let near = |pair: &Pair| gap_of(model, state, *pair, time).distance <= model.params.contact_distance;
+    let near = |pair: &Pair| {
+        let gap = gap_of(model, state, *pair, time);
+        gap.distance <= contact_distance(model, *pair, gap.point)
+    };
     let nearby = nearby.iter().map(|other| Pair::of(body, *other));
     let mut pairs: Vec<Pair> = lasting.chain(against.chain(nearby).filter(near)).collect();
     also.retain(|pair| {
@@ -255,9 +255,12 @@ fn touching(
     pairs
 }
 
-/// Whether a body began its present motion in this instant, at an impact as like as not.
+/// Whether a body has not moved by the contact distance since its present motion began, at an impact as like as
+/// not: what it touched then it still touches.
 pub(super) fn hit_just_now(model: &Model, state: &State, body: u32, time: f64) -> bool {
-    time - state.segments[body as usize].start <= SAME_INSTANT * model.params.contact_duration
+    let path = state.path(body);
+    let way = path.position(time) - path.segment.x;
+    way.length() <= model.params.contact_distance * model.radius(body)
 }
 
 fn member(model: &Model, state: &State, bodies: &Island, pair: Pair, time: f64) -> Member {

@@ -3,21 +3,23 @@
 
 use glam::DVec3;
 
+use super::constraint::Link;
 use super::contact::Contact;
 use super::event::{Event, EventKind};
 use super::exchange::{exchange, velocity_change};
 use super::fault::Fault;
-use super::geometry::restitution_of;
+use super::geometry::{restitution_of, smaller_radius};
 use super::group::{Group, Member, hit_just_now};
 use super::island::part;
-use super::ledger::{contact_event, in_id_order, rank, record};
+use super::ledger::{contact_event, in_id_order, rank, record, record_contact};
 use super::model::Model;
-use super::neighbours::{a_little_after, predict_pair};
+use super::neighbours::predict_later;
 use super::pair::Pair;
 use super::predict::{Gap, touch_tolerance};
 use super::restart::{Start, restart};
 use super::settle::{Settling, settle};
 use super::state::State;
+use super::tolerance::MEMORY;
 
 /// Two bodies touch while closing. `also` are impacts of the same instant, of which those connected with it
 /// are resolved too and taken out.
@@ -35,7 +37,7 @@ pub(super) fn resolve(
             && also.iter().all(|other| !other.involves(body))
             && !hit_just_now(model, state, body, time)
     });
-    let is_plain = !is_near_rest(model, pair, gap) && !is_in_cascade(model, state, pair, time);
+    let is_plain = !is_near_rest(model, pair, gap) && !is_collapsing(model, state, pair, -gap.rate);
     if is_lone && is_plain {
         return bounce(model, state, time, pair, gap);
     }
@@ -43,35 +45,44 @@ pub(super) fn resolve(
     if group.members.len() == 1 && is_plain {
         return bounce(model, state, time, pair, gap);
     }
-    let closing: Vec<Pair> = group.still_closing().into_iter().map(|k| group.members[k].pair).collect();
-    let cascading = note_lossy(model, state, time, &closing);
-    if cascading != Cascading::No {
-        // Only where it happens: the other end of a heap bounces as it would.
-        let counts =
-            |body: u32| f64::from(state.cascades[body as usize].length) >= model.params.collapse_count;
-        for member in &mut group.members {
-            if member.pair.dynamic().any(counts) {
-                member.restitution = 0.0;
-            }
-        }
-    }
-    let has_collapsed = group.resolve();
-    let kind =
-        if cascading == Cascading::Begins || has_collapsed { EventKind::Collapse } else { EventKind::Impact };
+    let kind = if collapse(model, state, &mut group) { EventKind::Collapse } else { EventKind::Impact };
     list(model, state, time, &group, kind);
     finish(model, state, time, group)
+}
+
+/// Resolves a group, plastically where it is collapsing; whether that is news.
+fn collapse(model: &Model, state: &mut State, group: &mut Group) -> bool {
+    let closing = group.still_closing();
+    let impacts: Vec<(Pair, f64)> =
+        closing.iter().map(|k| (group.members[*k].pair, group.members[*k].before)).collect();
+    let mut collapsed: Vec<u32> = Vec::new();
+    for k in closing {
+        let member = &mut group.members[k];
+        if is_collapsing(model, state, member.pair, member.before) {
+            member.restitution = 0.0;
+            collapsed.extend(member.pair.dynamic());
+        }
+    }
+    note_lossy(model, state, impacts);
+    if group.resolve(model.params.collapse_share) {
+        let lossy =
+            |member: &&Member| member.impulse > 0.0 && member.restitution < 1.0 && !member.pair.b.is_static();
+        collapsed.extend(group.members.iter().filter(lossy).flat_map(|member| member.pair.dynamic()));
+    }
+    report_collapse(state, collapsed)
 }
 
 /// Whether the last bounces may have come: the full rule must decide.
 fn is_near_rest(model: &Model, pair: Pair, gap: &Gap) -> bool {
     let speed = restitution_of(model, pair) * -gap.rate;
-    let rounding = touch_tolerance(gap.point, model.radius(pair.first()));
-    speed <= model.params.rest_speed || speed * speed <= 4.0 * gap.drive.abs() * rounding
+    let radius = smaller_radius(model, pair);
+    let height = (model.params.rest_height * radius).max(touch_tolerance(gap.point, radius));
+    speed * speed <= 4.0 * gap.drive.abs() * height
 }
 
 /// Newton's law for two bodies that touch nothing else, which then go on.
 fn bounce(model: &Model, state: &mut State, time: f64, pair: Pair, gap: &Gap) -> Result<(), Fault> {
-    note_lossy(model, state, time, &[pair]);
+    note_lossy(model, state, [(pair, -gap.rate)]);
     let impulse = exchange(model, state, time, pair, gap);
     let start = |body: u32, impulse: f64| Start {
         body,
@@ -90,7 +101,7 @@ fn bounce(model: &Model, state: &mut State, time: f64, pair: Pair, gap: &Gap) ->
 
 /// Lists what a group exchanged, one row for each contact.
 fn list(model: &Model, state: &mut State, time: f64, group: &Group, kind: EventKind) {
-    if group.members.iter().all(|member| member.impulse <= 0.0) {
+    if !group.members.iter().any(|member| group.is_felt(member)) {
         return;
     }
     state.group += 1;
@@ -105,7 +116,7 @@ fn list(model: &Model, state: &mut State, time: f64, group: &Group, kind: EventK
         };
         in_id_order(model, event)
     };
-    let mut rows: Vec<Event> = group.members.iter().filter(|member| member.impulse > 0.0).map(row).collect();
+    let mut rows: Vec<Event> = group.members.iter().filter(|member| group.is_felt(member)).map(row).collect();
     rows.sort_by_key(|row| (rank(model, row.a), row.b.map(|b| rank(model, b))));
     for row in rows {
         record(state, row);
@@ -116,30 +127,39 @@ fn list(model: &Model, state: &mut State, time: f64, group: &Group, kind: EventK
 fn finish(model: &Model, state: &mut State, time: f64, mut group: Group) -> Result<(), Fault> {
     let before: Vec<DVec3> = group.bodies.ids.iter().map(|body| state.velocity(*body, time)).collect();
     let settling = settle(model, &mut group);
-    book(state, &group, &before);
+    group.forget_rounding(&before);
+    book(state, &group);
     let changed = changed(&group, &before, &settling);
     keep_contacts(model, state, &group, &settling);
+    report_slides(model, state, time, &group, &before);
     restart(model, state, time, &starts_of(&group, &changed))?;
     // What neither needed an impulse nor lasts.
     for member in &group.members {
         if !changed[member.link.a] && !member.link.b.is_some_and(|b| changed[b]) {
-            predict_pair(model, state, member.pair, a_little_after(time), time);
+            predict_later(model, state, member.pair, time);
         }
     }
     Ok(())
 }
 
 /// Momentum that static bodies gave or took, and energy lost.
-fn book(state: &mut State, group: &Group, before: &[DVec3]) {
+fn book(state: &mut State, group: &Group) {
     for member in group.members.iter().filter(|member| member.pair.b.is_static()) {
         state.account.impulses.add(-member.impulse * member.link.towards);
     }
-    state.account.impulses.add(group.seized);
-    for (k, before) in before.iter().enumerate() {
-        // ½m(v² − v'²) as a product, which does not cancel.
-        let after = group.bodies.v[k];
-        let loss = 0.5 * (*before - after).dot(*before + after) / group.bodies.inverse_mass[k];
-        state.account.impact_losses.add(loss);
+    state.account.impact_losses.add(group.loss);
+}
+
+/// Reports the lasting contacts whose bodies lay still against each other and do no longer.
+fn report_slides(model: &Model, state: &mut State, time: f64, group: &Group, before: &[DVec3]) {
+    let slips = |velocities: &[DVec3], link: &Link| {
+        velocities[link.a] != link.b.map_or(DVec3::ZERO, |b| velocities[b])
+    };
+    for member in group.members.iter().filter(|member| member.is_lasting) {
+        let lasts = state.contact(member.pair).is_some();
+        if lasts && !slips(before, &member.link) && slips(&group.bodies.v, &member.link) {
+            record_contact(model, state, time, EventKind::Slide, member.pair);
+        }
     }
 }
 
@@ -189,44 +209,37 @@ fn make(state: &mut State, member: &Member, settling: &Settling) {
     }
 }
 
-/// Where an impact stands in a run of impacts of its bodies, each closely after the one before.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Cascading {
-    /// The run is short.
-    No,
-    /// The run reaches its limit with this impact: from now on nothing bounces.
-    Begins,
-    Goes,
-}
-
-/// Whether the next lossy impact of a pair may be one too many.
-fn is_in_cascade(model: &Model, state: &State, pair: Pair, time: f64) -> bool {
-    let last = model.params.collapse_count - 1.0;
-    pair.dynamic().any(|body| {
-        let cascade = &state.cascades[body as usize];
-        f64::from(cascade.length) >= last && time - cascade.last_impact < model.params.contact_duration
+/// Whether the speed at which a lossy pair of dynamic bodies closes is what an inelastic collapse leaves: next to
+/// nothing of what its bodies met others with. Elastic pairs make no collapse, and a lone body comes to rest on
+/// what is fixed.
+fn is_collapsing(model: &Model, state: &State, pair: Pair, closing: f64) -> bool {
+    let fastest = |body: u32| state.cascades[body as usize].reference;
+    pair.second().is_some_and(|other| {
+        let restitution = restitution_of(model, pair);
+        0.0 < restitution
+            && restitution < 1.0
+            && closing <= model.params.collapse_share * fastest(pair.first()).max(fastest(other))
     })
 }
 
-/// Counts an impact of moving bodies that loses energy. Others make no collapse: elastic ones go on anyway,
-/// and a lone body comes to rest on what is fixed.
-fn note_lossy(model: &Model, state: &mut State, time: f64, pairs: &[Pair]) -> Cascading {
-    let lossy = pairs.iter().filter(|pair| restitution_of(model, **pair) < 1.0);
-    let mut bodies: Vec<u32> = lossy.filter(|pair| !pair.b.is_static()).flat_map(Pair::dynamic).collect();
-    // A group is one impact to each of its bodies.
-    bodies.sort_unstable();
-    bodies.dedup();
-    bodies.into_iter().map(|body| count(model, state, body, time)).max().unwrap_or(Cascading::No)
+/// Remembers the lossy impacts of dynamic bodies.
+fn note_lossy(model: &Model, state: &mut State, impacts: impl IntoIterator<Item = (Pair, f64)>) {
+    for (pair, closing) in impacts {
+        let Some(other) = pair.second().filter(|_| restitution_of(model, pair) < 1.0) else { continue };
+        let is_collapsing = is_collapsing(model, state, pair, closing);
+        for body in [pair.first(), other] {
+            let cascade = &mut state.cascades[body as usize];
+            cascade.reference = closing.max(MEMORY * cascade.reference);
+            cascade.is_reported &= is_collapsing;
+        }
+    }
 }
 
-fn count(model: &Model, state: &mut State, body: u32, time: f64) -> Cascading {
-    let cascade = &mut state.cascades[body as usize];
-    let follows = time - cascade.last_impact < model.params.contact_duration;
-    cascade.length = if follows { cascade.length.saturating_add(1) } else { 0 };
-    cascade.last_impact = time;
-    match f64::from(cascade.length).total_cmp(&model.params.collapse_count) {
-        std::cmp::Ordering::Less => Cascading::No,
-        std::cmp::Ordering::Equal => Cascading::Begins,
-        std::cmp::Ordering::Greater => Cascading::Goes,
+/// Whether a collapse of some bodies is news.
+fn report_collapse(state: &mut State, bodies: impl IntoIterator<Item = u32>) -> bool {
+    let mut is_news = false;
+    for body in bodies {
+        is_news |= !std::mem::replace(&mut state.cascades[body as usize].is_reported, true);
     }
+    is_news
 }

@@ -5,12 +5,13 @@ use std::collections::BTreeSet;
 
 use glam::DVec3;
 
-use super::constraint::{Link, enter_none, largest_push, stay_on};
+use super::constraint::{Link, enter_none, stay_on};
 use super::event::EventKind;
 use super::geometry::{BodiesAt, surface_of};
 use super::ledger::record_contact;
 use super::model::Model;
 use super::motion::{SegmentError, Step, applied_force, check, coupled_step, place, step_hint, subject_at};
+use super::nearest::Solved;
 use super::pair::Pair;
 use super::segment::Segment;
 use super::shape::Surface;
@@ -84,18 +85,27 @@ impl Island {
     fn held(&self, model: &Model, time: f64) -> Vec<bool> {
         let links = self.links(model);
         let mut motion = self.free(model, time);
-        let applied = largest(&motion, &links);
-        let forces = enter_none(&links, &self.inverse_mass, &mut motion);
-        let pushed = largest_push(&links, &self.inverse_mass, &forces);
-        let rounding = PRESSURE_ROUNDING * applied.max(pushed);
-        let parts = |link: &Link| link.limit - link.entering(&motion) > rounding;
-        // Bodies that fall side by side carry nothing: that is no contact.
-        links.iter().map(|link| pushed > rounding && !parts(link)).collect()
+        let solved = enter_none(&links, &self.inverse_mass, &mut motion);
+        pressed(&links, &solved, &self.inverse_mass, &motion)
     }
 }
 
+/// Which links do not part by an acceleration, of bodies on which any link presses: such as fall side by side are
+/// not in contact.
+pub(super) fn pressed(links: &[Link], solved: &Solved, inverse_mass: &[f64], motion: &[DVec3]) -> Vec<bool> {
+    let rounding = |link: &Link| PRESSURE_ROUNDING * solved.size(link);
+    let loads = links.iter().zip(&solved.multipliers);
+    let loaded: Vec<bool> =
+        loads.map(|(link, load)| load * link.response(link, inverse_mass) > rounding(link)).collect();
+    let shares = |link: &Link| {
+        links.iter().zip(&loaded).any(|(other, is_loaded)| *is_loaded && other.shares_body(link))
+    };
+    let parts = |link: &Link| link.limit - link.entering(motion) > rounding(link);
+    links.iter().map(|link| !parts(link) && shares(link)).collect()
+}
+
 /// The largest of some accelerations and of what keeps the bodies on curved surfaces.
-fn largest(accelerations: &[DVec3], links: &[Link]) -> f64 {
+pub(super) fn largest(accelerations: &[DVec3], links: &[Link]) -> f64 {
     accelerations.iter().map(|a| a.length()).chain(links.iter().map(|link| link.limit)).fold(0.0, f64::max)
 }
 
@@ -173,7 +183,7 @@ pub(super) fn begin_island(
     stay_on(&at_rest, &island.inverse_mass, &mut island.v);
     let links = island.links(model);
     let mut accelerations = island.free(model, time);
-    enter_none(&links, &island.inverse_mass, &mut accelerations);
+    let solved = enter_none(&links, &island.inverse_mass, &mut accelerations);
     let steps: Vec<Step> = if is_steady(model, island, &links, &accelerations) {
         let rows = island.x.iter().zip(&island.v).zip(&accelerations);
         rows.map(|((x, v), a)| (Segment::ballistic(time, *x, *v, *a), None)).collect()
@@ -198,8 +208,9 @@ pub(super) fn begin_island(
     for (body, (segment, _)) in island.ids.iter().zip(&steps) {
         check(model, segment).map_err(|error| (*body, error))?;
     }
-    for (body, (segment, column)) in island.ids.iter().zip(steps) {
-        place(model, state, *body, Segment { constrained: true, ..segment }, column);
+    for ((body, (segment, column)), size) in island.ids.iter().zip(steps).zip(solved.sizes) {
+        let segment = Segment { constrained: true, acceleration_size: size, ..segment };
+        place(model, state, *body, segment, column);
     }
     Ok(())
 }

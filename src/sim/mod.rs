@@ -30,6 +30,7 @@ mod impact;
 mod island;
 mod ledger;
 mod motion;
+mod nearest;
 mod neighbours;
 mod predict;
 mod restart;

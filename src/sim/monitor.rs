@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::body::{BodyId, Identity};
-use super::geometry::gap_of;
+use super::geometry::{contact_distance, gap_of};
 use super::model::Model;
 use super::pair::Pair;
 use super::report::Tiling;
@@ -24,8 +24,9 @@ pub(super) fn worst_overlap(model: &Model, state: &State, time: f64) -> f64 {
 pub(super) fn start_warnings(model: &Model, state: &State) -> Vec<Diagnostic> {
     let mut warnings = Vec::new();
     for_each_neighbour(model, state, |pair| {
-        let depth = -gap_of(model, state, pair, state.now).distance;
-        if depth > model.params.contact_distance {
+        let gap = gap_of(model, state, pair, state.now);
+        let depth = -gap.distance;
+        if depth > contact_distance(model, pair, gap.point) {
             let (a, b) = (&model.body(pair.a).identity, &model.body(pair.b).identity);
             warnings.push(warning(
                 a,

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::body::BodyId;
 use super::contact_ends::predict_contact_events;
 use super::force::Law;
-use super::geometry::{ball, target};
+use super::geometry::{ball, contact_distance, gap_of, larger_radius, target};
 use super::model::Model;
 use super::pair::Pair;
 use super::predict::{self, first_beyond};
@@ -13,13 +13,13 @@ use super::queue::Kind;
 use super::roots::first_root;
 use super::state::{Scratch, State};
 use super::tiles::{TileRange, for_each_brick};
-use super::tolerance::{BOX_MARGIN, BOX_ROUNDING, LATER, LATER_ROUNDING};
+use super::tolerance::{BOX_MARGIN, BOX_ROUNDING, LATER_ROUNDING};
 
 /// How much larger than the body its registered box is, m: more than root finding can be off, and than bodies
 /// are apart that touch.
 fn margin(model: &Model, radius: f64, position: DVec3) -> f64 {
     let rounding = BOX_ROUNDING * model.grid.tile_size.max_element().max(position.abs().max_element());
-    BOX_MARGIN * radius + rounding + model.params.contact_distance
+    (BOX_MARGIN + model.params.contact_distance) * radius + rounding
 }
 
 /// Tiles of a body's box, rounded outwards.
@@ -124,7 +124,8 @@ fn predict_neighbours(
     collect(model, state, &mut scratch, body, range, known);
     let from = ball(model, state, body);
     let looked_at = scratch.found_dynamic.len();
-    let near = model.params.contact_distance;
+    // More than the contact distance of any pair of this body.
+    let near = 2.0 * margin(model, from.radius, state.position(body, time));
     scratch.found_dynamic.retain(|other| !predict::surely_pass(from, ball(model, state, *other), near));
     state.counters.pair_tests += (looked_at - scratch.found_dynamic.len()) as u64;
     for other in &scratch.found_dynamic {
@@ -194,7 +195,7 @@ pub(super) fn predict_pair(model: &Model, state: &mut State, pair: Pair, from: f
     }
     state.counters.pair_tests += 1;
     if let Some(other) = pair.second()
-        && lies_against(model, state, body, other, time)
+        && lies_against(model, state, pair, time)
     {
         state.note_touching(body, other);
     }
@@ -204,23 +205,26 @@ pub(super) fn predict_pair(model: &Model, state: &mut State, pair: Pair, from: f
     }
 }
 
-/// Where to go on looking after a prediction that led to nothing: the same time would only give the same
-/// answer.
-pub(super) fn a_little_after(time: f64) -> f64 {
-    time + LATER.max(LATER_ROUNDING * time)
+/// Predicts again what touches and neither meets nor lasts: from when the motion that is left, if any, has brought
+/// the surfaces nearer by the rounding of a place. The same time would only give the same answer.
+pub(super) fn predict_later(model: &Model, state: &mut State, pair: Pair, time: f64) {
+    let gap = gap_of(model, state, pair, time);
+    let slack = predict::touch_tolerance(gap.point, larger_radius(model, pair));
+    let integrated = pair.dynamic().map(|body| state.path(body)).filter(|path| path.series.is_some());
+    let bend = integrated.map(|path| -path.segment.acceleration_bound).fold(gap.bend, f64::min);
+    if let Some(tau) = first_root(slack, gap.rate, bend) {
+        predict_pair(model, state, pair, time + tau.max(LATER_ROUNDING * time), time);
+    }
 }
 
-/// Whether two dynamic bodies touch to within the contact distance and will for a while: an impact on one
-/// of them is an impact on both.
-fn lies_against(model: &Model, state: &State, a: u32, b: u32, time: f64) -> bool {
-    let params = &model.params;
-    let apart = state.position(b, time) - state.position(a, time);
-    let reach = model.radius(a) + model.radius(b) + params.contact_distance;
-    if apart.length_squared() > reach * reach {
-        return false;
-    }
-    let rate = apart.dot(state.velocity(b, time) - state.velocity(a, time));
-    rate.abs() * params.contact_duration <= params.contact_distance * apart.length()
+/// Whether two dynamic bodies touch to within the contact distance and do not part: an impact on one of them is
+/// an impact on both.
+fn lies_against(model: &Model, state: &State, pair: Pair, time: f64) -> bool {
+    let Some(second) = pair.second() else { return false };
+    let at = state.position(pair.first(), time);
+    let apart = state.position(second, time) - at;
+    let reach = model.radius(pair.first()) + model.radius(second) + contact_distance(model, pair, at);
+    apart.length_squared() <= reach * reach && gap_of(model, state, pair, time).rate <= 0.0
 }
 
 impl Scratch {

@@ -22,6 +22,9 @@ pub(super) struct Segment {
     pub acceleration_bound: f64,
     /// Length of the integrator step whose [`Series`] continues the polynomial; 0 without one.
     pub step: f64,
+    /// Length of all that the acceleration is the sum of, m/s²: contact forces may all but cancel the others,
+    /// and their rounding stays.
+    pub acceleration_size: f64,
     /// Whether contact forces took part in it.
     pub constrained: bool,
 }
@@ -45,6 +48,7 @@ impl Segment {
             v,
             a,
             acceleration_bound: a.length(),
+            acceleration_size: a.length(),
             step: 0.0,
             constrained: false,
         }
@@ -92,6 +96,11 @@ impl Path<'_> {
             None => base,
             Some(series) => base + tau * series.velocity_term(tau / seg.step),
         }
+    }
+
+    /// Length of what an acceleration on this path is the sum of.
+    pub fn acceleration_size(&self, acceleration: DVec3) -> f64 {
+        acceleration.length().max(self.segment.acceleration_size)
     }
 
     pub fn acceleration(&self, time: f64) -> DVec3 {

@@ -2,11 +2,14 @@
 
 use glam::DVec3;
 
-use super::constraint::{Link, enter_none, largest_push, stay_on};
+use super::constraint::{Link, enter_none};
+use super::geometry::smaller_radius;
 use super::group::{Group, Member};
+use super::island::{largest, pressed};
 use super::model::Model;
+use super::nearest::{nearest, responses};
 use super::predict::touch_tolerance;
-use super::tolerance::{PRESSURE_ROUNDING, SETTLING_ACCELERATION};
+use super::tolerance::LEFT_OVER;
 
 /// A contact of a group that lasts from now on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,109 +20,165 @@ pub(super) struct Settling {
     pub settles_at: Option<f64>,
 }
 
-/// Which contacts of a group last, after its impacts. Bounces are over if their sum has a near limit, or if
-/// they are lower than the rounding of the position: then the event comes at the limit time
-/// t + Σ flights = t + 2v'/(g(1−e)), and the velocities are levelled now.
+/// Which contacts of a group last, after its impacts, and the velocities that these leave. A contact lasts if
+/// its bounces are over: their sum has a near limit, or they are lower than the rounding of the position. The
+/// event comes at the limit time t + Σ flights = t + 2v'/(g(1−e)); the velocities are levelled now.
 pub(super) fn settle(model: &Model, group: &mut Group) -> Vec<Settling> {
-    let mut candidates: Vec<Candidate> =
-        (0..group.members.len()).filter_map(|member| could_last(model, group, member)).collect();
-    if candidates.iter().any(|candidate| !candidate.is_undisturbed) {
-        drop_unsettled(model, group, &mut candidates);
-    }
-    let lasts = |candidate: &Candidate| Settling {
-        member: candidate.member,
-        settles_at: (!group.members[candidate.member].is_lasting).then_some(group.time + candidate.flights),
-    };
-    let settling: Vec<Settling> = candidates.iter().map(lasts).collect();
-    level(group, &settling);
-    settling
+    let free = group.bodies.free(model, group.time);
+    let links = group.acceleration_links(model);
+    let mut candidates = slow(model, group, &free, &links);
+
+    drop_bouncing(model, group, &mut candidates, &free, &links);
+
+    drop_parting(group, &mut candidates, &free, &links);
+
+    drop_unpressed(group, &mut candidates, &free, &links);
+
+    level(group, &candidates);
+    candidates.iter().map(|candidate| candidate.settling(group)).collect()
 }
 
 /// A contact that may last.
 struct Candidate {
     member: usize,
-    /// It lasted before, and nothing has moved its bodies apart.
-    is_undisturbed: bool,
+    /// Its surfaces do not part now.
+    touches: bool,
     /// Sum of the bounces left out, s.
     flights: f64,
 }
 
-/// Whether a contact is slow enough to last.
-fn could_last(model: &Model, group: &Group, index: usize) -> Option<Candidate> {
-    let member = &group.members[index];
-    let parting = -group.closing(member);
-    let is_undisturbed = member.is_lasting && parting <= group.rounding(member);
-    let slow = model.params.rest_speed.max((SETTLING_ACCELERATION * slack(model, group, member)).sqrt());
-    (is_undisturbed || parting <= slow).then_some(Candidate { member: index, is_undisturbed, flights: 0.0 })
+impl Candidate {
+    fn settling(&self, group: &Group) -> Settling {
+        let member = self.member;
+        let is_new = !group.members[member].is_lasting;
+        Settling { member, settles_at: is_new.then_some(group.time + self.flights) }
+    }
+}
+
+/// The contacts that part slowly enough to last under the accelerations that there are.
+fn slow(model: &Model, group: &Group, free: &[DVec3], links: &[Link]) -> Vec<Candidate> {
+    let strongest = 2.0 * largest(free, links);
+    let candidate = |(k, member): (usize, &Member)| {
+        let parting = -group.closing(member);
+        let touches = parting <= group.rounding(member);
+        let height = rest_height(model, member).max(slack(model, group, member));
+        let is_slow = touches || parting * parting <= 2.0 * strongest * height;
+        is_slow.then_some(Candidate { member: k, touches, flights: 0.0 })
+    };
+    group.members.iter().enumerate().filter_map(candidate).collect()
+}
+
+/// Height of the bounces that may be left out, m.
+fn rest_height(model: &Model, member: &Member) -> f64 {
+    model.params.rest_height * smaller_radius(model, member.pair)
 }
 
 fn slack(model: &Model, group: &Group, member: &Member) -> f64 {
     touch_tolerance(group.bodies.x[member.link.a], model.radius(member.pair.first()))
 }
 
-/// Leaves those candidates whose bounces end while all the others hold.
-fn drop_unsettled(model: &Model, group: &Group, candidates: &mut Vec<Candidate>) {
-    let free = group.bodies.free(model, group.time);
-    let links = group.acceleration_links(model);
-    loop {
-        let held: Vec<Link> = candidates.iter().map(|candidate| links[candidate.member]).collect();
-        let loads = enter_none(&held, &group.bodies.inverse_mass, &mut free.clone());
-        let ends: Vec<Option<f64>> = (0..held.len())
-            .map(|k| {
-                if candidates[k].is_undisturbed {
-                    return Some(0.0);
-                }
-                let pressing = pressing(group, &held, k, loads[k], &free)?;
-                remaining_flights(model, group, candidates[k].member, pressing)
-            })
-            .collect();
-        let mut end = ends.iter();
+fn links_of(candidates: &[Candidate], links: &[Link]) -> Vec<Link> {
+    candidates.iter().map(|candidate| links[candidate.member]).collect()
+}
+
+/// Drops contacts whose bounces go on for long: what presses them together while all others hold is what each
+/// carries then.
+fn drop_bouncing(
+    model: &Model,
+    group: &Group,
+    candidates: &mut Vec<Candidate>,
+    free: &[DVec3],
+    links: &[Link],
+) {
+    while candidates.iter().any(|candidate| !candidate.touches) {
+        let held = links_of(candidates, links);
+        let loads = enter_none(&held, &group.bodies.inverse_mass, &mut free.to_vec()).multipliers;
+        let loaded: Vec<usize> = (0..held.len()).filter(|k| loads[*k] > 0.0).collect();
+        let pressed: Vec<Link> = loaded.iter().map(|k| held[*k]).collect();
+        let mut pressing = vec![0.0; held.len()];
+        for (k, response) in loaded.iter().zip(responses(&pressed, &group.bodies.inverse_mass)) {
+            pressing[*k] = loads[*k] * response;
+        }
+        let count = candidates.len();
+        let mut of = pressing.into_iter();
         candidates.retain_mut(|candidate| {
-            let Some(flights) = end.next().copied().flatten() else { return false };
-            candidate.flights = flights;
-            true
+            let Some(pressing) = of.next() else { return false };
+            if candidate.touches {
+                return true;
+            }
+            let flights = remaining_flights(model, group, candidate.member, pressing);
+            candidate.flights = flights.unwrap_or(0.0);
+            flights.is_some()
         });
-        if candidates.len() == ends.len() {
+        if candidates.len() == count {
             return;
         }
     }
 }
 
-/// Acceleration that presses two bodies together while the other contacts hold, m/s²; `None` if nothing
-/// does. Where the others alone would hold them (a ball in a heap), what the contact carries counts.
-fn pressing(group: &Group, held: &[Link], index: usize, load: f64, free: &[DVec3]) -> Option<f64> {
-    let link = &held[index];
-    let others: Vec<Link> =
-        (0..held.len()).filter(|other| *other != index).map(|other| held[other]).collect();
-    let mut driven = free.to_vec();
-    let loads = enter_none(&others, &group.bodies.inverse_mass, &mut driven);
-    let applied = link.b.map_or(0.0, |b| free[b].length()).max(free[link.a].length()) + link.limit;
-    let rounding = PRESSURE_ROUNDING * applied.max(largest_push(&others, &group.bodies.inverse_mass, &loads));
-    let alone = link.entering(&driven) - link.limit;
-    let shared = load * link.response(link, &group.bodies.inverse_mass);
-    [alone, shared].into_iter().find(|pressing| *pressing > rounding)
-}
-
 /// Sum of the flights that are left under an acceleration that presses the bodies together, s; `None` if it
 /// is not to be left out.
 fn remaining_flights(model: &Model, group: &Group, index: usize, pressing: f64) -> Option<f64> {
+    if pressing <= 0.0 {
+        return None;
+    }
     let member = &group.members[index];
     let parting = (-group.closing(member)).max(0.0);
-    let flights = 2.0 * parting / (pressing * (1.0 - member.restitution));
-    let has_limit =
-        member.restitution < 1.0 && parting <= model.params.rest_speed && flights <= model.params.rest_time;
-    if has_limit {
+    let restitution = group.restitution_of(member);
+    let flights = 2.0 * parting / (pressing * (1.0 - restitution));
+    let is_low = |height: f64| parting * parting <= 2.0 * pressing * height;
+    let fall_time = (2.0 * smaller_radius(model, member.pair) / pressing).sqrt();
+    let is_short = restitution < 1.0 && flights <= model.params.rest_time * fall_time;
+    if is_short && is_low(rest_height(model, member)) {
         return Some(flights);
     }
-    let is_below_rounding = parting * parting <= 2.0 * pressing * slack(model, group, member);
-    is_below_rounding.then_some(0.0)
+    is_low(slack(model, group, member)).then_some(0.0)
 }
 
-/// Takes what still parts or enters at lasting contacts out of the velocities.
-fn level(group: &mut Group, settling: &[Settling]) {
-    let links: Vec<Link> = settling.iter().map(|contact| group.members[contact.member].link).collect();
-    let multipliers = stay_on(&links, &group.bodies.inverse_mass, &mut group.bodies.v);
-    for (contact, multiplier) in settling.iter().zip(multipliers) {
-        group.members[contact.member].impulse += multiplier;
+/// Drops contacts that part all the same once the bodies have come back: one step of Moreau's over the longest
+/// of the flights left out tells. A ball that a step in the floor lifts leaves the floor, however slowly.
+fn drop_parting(group: &Group, candidates: &mut Vec<Candidate>, free: &[DVec3], links: &[Link]) {
+    let span = 2.0 * candidates.iter().map(|candidate| candidate.flights).fold(0.0, f64::max);
+    let mut motion = group.bodies.v.clone();
+    for (v, a) in motion.iter_mut().zip(free) {
+        *v += span * *a;
+    }
+    let turned = |(member, link): (&Member, &Link)| Link { limit: span * link.limit, ..member.link };
+    let links: Vec<Link> = group.members.iter().zip(links).map(turned).collect();
+    let solved = enter_none(&links, &group.bodies.inverse_mass, &mut motion);
+    candidates.retain(|candidate| {
+        let link = &links[candidate.member];
+        solved.multipliers[candidate.member] > 0.0
+            || link.limit - link.entering(&motion) <= LEFT_OVER * solved.size(link)
+    });
+}
+
+/// Drops contacts that nothing presses together while the others hold. One that lasted before ends by an event
+/// of its own.
+fn drop_unpressed(group: &Group, candidates: &mut Vec<Candidate>, free: &[DVec3], links: &[Link]) {
+    loop {
+        let held = links_of(candidates, links);
+        let mut motion = free.to_vec();
+        let solved = enter_none(&held, &group.bodies.inverse_mass, &mut motion);
+        let mut of = pressed(&held, &solved, &group.bodies.inverse_mass, &motion).into_iter();
+        let count = candidates.len();
+        candidates
+            .retain(|candidate| of.next().unwrap_or(false) || group.members[candidate.member].is_lasting);
+        if candidates.len() == count {
+            return;
+        }
+    }
+}
+
+/// Takes what still parts at lasting contacts out of the velocities, closing none of the others.
+fn level(group: &mut Group, candidates: &[Candidate]) {
+    let links: Vec<Link> = group.members.iter().map(|member| member.link).collect();
+    let mut lasts = vec![false; links.len()];
+    candidates.iter().for_each(|candidate| lasts[candidate.member] = true);
+    let before: Vec<f64> = links.iter().map(|link| link.entering(&group.bodies.v)).collect();
+    let multipliers = nearest(&links, &lasts, &group.bodies.inverse_mass, &mut group.bodies.v).multipliers;
+    for ((member, multiplier), before) in group.members.iter_mut().zip(multipliers).zip(before) {
+        member.impulse += multiplier;
+        group.loss += 0.5 * multiplier * before;
     }
 }

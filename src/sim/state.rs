@@ -38,7 +38,7 @@ pub(super) struct State {
     pub contacts: Vec<Vec<Contact>>,
     /// Dynamic bodies that lie against each body and hardly move away, without lasting contact.
     pub touching: Vec<Vec<u32>>,
-    /// The impacts of each body that follow each other closely.
+    /// The lossy impacts of each body.
     pub cascades: Vec<Cascade>,
     pub dynamic_tiles: DynamicTiles,
     pub queue: Queue,
@@ -61,11 +61,13 @@ pub(super) struct FieldColumn {
     pub next_step: f64,
 }
 
-/// A run of impacts of one body, each within `contact_duration` of the one before.
-#[derive(Clone, Copy, Debug)]
+/// What the lossy impacts of one body with other dynamic ones have been like, to tell an inelastic collapse.
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Cascade {
-    pub last_impact: f64,
-    pub length: u32,
+    /// Closing speed of the fastest of the last ones, m/s.
+    pub reference: f64,
+    /// Whether a collapse was reported since.
+    pub is_reported: bool,
 }
 
 /// Marks that tell which bodies were seen in the present look through the tiles.
@@ -117,7 +119,7 @@ impl State {
         self.registered.push(TileRange::default());
         self.contacts.push(Vec::new());
         self.touching.push(Vec::new());
-        self.cascades.push(Cascade { last_impact: f64::NEG_INFINITY, length: 0 });
+        self.cascades.push(Cascade::default());
         index
     }
 

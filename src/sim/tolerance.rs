@@ -35,11 +35,8 @@ pub(super) const FOUND: f64 = 1e3;
 /// The time of a contact is known to this part of itself, in which the surfaces come nearer still.
 pub(super) const TIME_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// A search that led to nothing goes on this much later, s, or [`LATER_ROUNDING`] of the time: the same time would
-/// give the same answer. Smaller costs more tries, larger may pass a contact.
-pub(super) const LATER: f64 = 1e-9;
-
-/// As [`LATER`], as a part of the time.
+/// A search that led to nothing goes on later by this part of the time at least: the same time would give the same
+/// answer. Smaller costs more tries, larger may pass a contact.
 pub(super) const LATER_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 // Tiles.
@@ -53,24 +50,25 @@ pub(super) const BOX_ROUNDING: f64 = 1e-12;
 
 // Impact groups.
 
-/// Impacts farther apart than this part of the contact duration are not of one instant, however slow. Smaller,
-/// symmetric blows are taken one after the other; larger, blows that come in turn are taken as one.
-pub(super) const SAME_INSTANT: f64 = 1e-3;
+/// Bodies that touch do so to within so many times [`TOUCH`] at least, however small the contact distance: below it
+/// places are rounded.
+pub(super) const TOUCHES: f64 = 4.0;
 
 /// A contact of a group closes if it does so by more than this part of its bodies' speeds.
 pub(super) const CLOSING_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Closing speeds below this part of the largest at the start are taken plastically: a 1e-24th of the energy.
-/// Smaller, rounds go on about nothing; larger, real bounces are lost.
-pub(super) const SMALLEST_SHARE: f64 = 1e-12;
+/// Contacts whose directions are at right angles but for this do not act on each other: normals are known to some
+/// hundred roundings at best. Smaller, a corner of rotated walls shares one restitution; larger, contacts that act on
+/// each other weakly are taken apart.
+pub(super) const UNCOUPLED: f64 = 1e-12;
 
-/// What a plastic impact may leave of the largest closing speed before bodies seize: its rounding is far below.
-/// Smaller, bodies seize by rounding; larger, wedged bodies enter each other.
-pub(super) const LARGEST_REST: f64 = 1e-9;
+/// A velocity changed by less than this part of the largest of its group has not changed. Smaller, bodies at rest
+/// start anew at every blow on a neighbour, for ever; larger, soft blows beside hard ones are lost.
+pub(super) const NO_CHANGE: f64 = 64.0 * f64::EPSILON;
 
-/// More than any acceleration times two that is worth a thought, m/s²: a coarse sieve for contacts that may
-/// settle. Smaller, contacts under larger accelerations bounce on below the rounding of their place; larger costs.
-pub(super) const SETTLING_ACCELERATION: f64 = 1e6;
+/// What part of the reference speed of a collapse each impact leaves: it is forgotten after some hundred. Less, and
+/// slow collapses are not told from a gas that cools; more, and a body remembers blows of long ago.
+pub(super) const MEMORY: f64 = 1.0 - 1.0 / 256.0;
 
 // Islands.
 
@@ -81,20 +79,18 @@ pub(super) const PRESSURE_SAMPLES: u32 = 8;
 
 // The solver of contact constraints.
 
-/// What still enters below this part of the largest that enters counts as rounding. Smaller, the active set goes
-/// round in circles; larger, surfaces enter each other.
-pub(super) const ENTERING: f64 = 1e-14;
+/// What still enters below this part of the motions that it is the difference of is rounding. Smaller, the active
+/// set goes round in circles; larger, surfaces enter each other.
+pub(super) const ENTERING: f64 = 16.0 * f64::EPSILON;
+
+/// A normal of which less than this part of its length is left beside others is a combination of them: some hundred
+/// roundings. Smaller, rounding passes for a direction; larger, a heavy ball sinks through a light one.
+pub(super) const DEPENDENT: f64 = 1e-13;
 
 /// What is left of a motion below this part of what was taken from it is rounding, and would creep.
 pub(super) const LEFT_OVER: f64 = 64.0 * f64::EPSILON;
 
-/// By which part the diagonal is raised where contacts share a load that they can't divide. Smaller, the matrix
-/// stays singular; larger needs more refinements.
-pub(super) const RAISE: f64 = 1e-10;
-
-/// A pivot below this part of its diagonal entry belongs to a contact that depends on those before. Smaller,
-/// rounding passes for independence; larger, contacts at small angles are dropped.
-pub(super) const DEPENDENT: f64 = 1e-9;
-
-/// Refinements of a solution: each takes a further [`RAISE`] of the error out, so that three leave rounding.
-pub(super) const REFINEMENTS: u32 = 3;
+/// Part of a normal's length that is a direction of its own where loads are shared: bounds that depend on each other
+/// then have one answer, that of the least forces. It is off by the square of this, which is made good afterwards,
+/// and by roundings over that square.
+pub(super) const SHARING: f64 = 1e-4;

@@ -153,7 +153,7 @@ fn poses_velocities_map_and_settings_wait_for_a_reset_and_undo_takes_the_badge_a
         |bench| Edit::Body { key: bench.key(7), change: BodyChange::Id(99) },
         |_| Edit::MapSize(DVec3::splat(20.0)),
         |_| Edit::MapTiles([5, 5, 5]),
-        |_| Edit::Params(SimParams { rest_speed: 1e-3, ..SimParams::default() }),
+        |_| Edit::Params(SimParams { rest_height: 1e-3, ..SimParams::default() }),
     ];
     for change in changes {
         let mut bench = Bench::open();

@@ -148,10 +148,10 @@ fn map_and_solver_are_edited() {
     assert_eq!(window.scene().map.size.y, 12.0);
     assert_eq!(window.scene().map.tiles, [10, 10, 37]);
     window.click_role(Role::TreeItem, "Simulation");
-    window.type_number("Rest speed", "1e-3");
-    assert_eq!(window.scene().params.rest_speed, 1e-3);
-    window.click("Reset Rest speed");
-    assert_eq!(window.scene().params.rest_speed, 1e-5);
+    window.type_number("Rest height", "1e-3");
+    assert_eq!(window.scene().params.rest_height, 1e-3);
+    window.click("Reset Rest height");
+    assert_eq!(window.scene().params.rest_height, 1e-11);
     window.type_number("Time speed", "0,5");
     assert_eq!(window.scene().time_speed, 0.5);
 }

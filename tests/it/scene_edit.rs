@@ -143,9 +143,9 @@ fn the_map_and_the_settings_are_edited_in_place() {
 #[test]
 fn solver_settings_come_and_go_and_move_the_version_along() {
     let document = read(&plain());
-    let changed = SimParams { rest_speed: 0.001, ..SimParams::default() };
+    let changed = SimParams { rest_height: 0.001, ..SimParams::default() };
     let edited = apply(&document, &Edit::Params(changed));
-    let solver = "    </Forces>\n    <Solver RestSpeed=\"0,001\" />\n";
+    let solver = "    </Forces>\n    <Solver RestHeight=\"0,001\" />\n";
     assert_eq!(text(&edited), plain().replace("    </Forces>\n", solver).replace("\"1.0\"", "\"1.1\""));
     assert_eq!(scene(&edited).params, changed);
     assert_eq!(edited.reasons_for_1_1(), ["Solver"]);
@@ -407,8 +407,8 @@ fn refused_edits_say_why() {
         (Edit::MapTiles([0, 1, 1]), "the number of tiles on an axis must be a whole number from 1 to 65536"),
         (Edit::MapSize(DVec3::ZERO), "the map's size x must be greater than 0; 0 was given"),
         (
-            Edit::Params(SimParams { rest_speed: 2.0, ..SimParams::default() }),
-            "Rest speed must lie between 0.0 and 1.0; 2 was given",
+            Edit::Params(SimParams { rest_height: 2.0, ..SimParams::default() }),
+            "Rest height must lie between 0.0 and 0.1; 2 was given",
         ),
         (
             Edit::AddBody(Box::new(Body { bounce: f64::INFINITY, ..new_ball(1) })),

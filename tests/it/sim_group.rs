@@ -138,10 +138,27 @@ fn a_slow_neighbour_within_the_contact_distance_is_hit_with_the_other() {
         .ball(1, dvec3(2.0, 5.0, 5.0), dvec3(2.0, 0.0, 0.0))
         .ball(2, dvec3(5.0, 5.0, 5.0), DVec3::ZERO)
         .ball(3, dvec3(6.0005, 5.0, 5.0), dvec3(0.0, 1e-4, 0.0));
-    scene.params.contact_distance = 1e-3;
+    scene.params.contact_distance = 2e-3;
     let events = run(&scene, 1.2, Sampling::Every(0.1)).events;
     assert_eq!(events.len(), 2, "{events:?}");
     assert_eq!((events[0].group, events[0].time), (events[1].group, events[1].time), "{events:?}");
+}
+
+#[test]
+fn touching_neighbours_are_found_across_the_border_of_tiles() {
+    // Half a contact distance apart on both sides of x = 5, where tiles of 1 m meet and one tile does not.
+    let scene = |tiles: u32| {
+        let mut scene = empty()
+            .tiles([tiles; 3])
+            .ball(1, dvec3(2.0, 5.0, 5.0), dvec3(2.0, 0.0, 0.0))
+            .ball(2, dvec3(4.49975, 5.0, 5.0), DVec3::ZERO)
+            .ball(3, dvec3(5.50025, 5.0, 5.0), DVec3::ZERO);
+        scene.params.contact_distance = 2e-3;
+        scene
+    };
+    let [one, ten] = [1, 10].map(|tiles| run(&scene(tiles), 1.5, Sampling::Every(0.1)));
+    assert_eq!(one.events[0].time, one.events[1].time, "{:?}", one.events);
+    assert_same_bits(&one, &ten, "in more tiles");
 }
 
 #[test]

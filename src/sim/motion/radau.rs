@@ -164,6 +164,7 @@ pub(in crate::sim) fn radau_step(
             v: start.v,
             a: a0,
             acceleration_bound: a0.length() + series.bound(),
+            acceleration_size: a0.length(),
             step,
             constrained: false,
         };

@@ -30,7 +30,7 @@ pub(super) fn gap(ball: Ball<'_>, nearest: impl Fn(DVec3) -> Near, time: f64) ->
     Gap {
         distance: near.distance - ball.radius,
         rate: snap(-near.towards.dot(velocity), velocity.length()),
-        bend: snap_pressure(turn + drive, acceleration.length() + turn),
+        bend: snap_pressure(turn + drive, ball.path.acceleration_size(acceleration) + turn),
         drive,
         normal: near.towards,
         point: at + ball.radius * near.towards,

@@ -66,7 +66,7 @@ fn relative(a: Ball<'_>, b: Ball<'_>, time: f64) -> Relative {
         velocity: velocity_b - velocity_a,
         acceleration: drive_b - drive_a,
         speeds: velocity_a.length() + velocity_b.length(),
-        drives: drive_a.length() + drive_b.length(),
+        drives: a.path.acceleration_size(drive_a) + b.path.acceleration_size(drive_b),
     }
 }
 
