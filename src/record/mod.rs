@@ -3,17 +3,19 @@
 mod command;
 mod drift;
 mod frame;
+mod grid;
 mod history;
 mod inline;
 mod publish;
 mod recorder;
+mod replay;
+mod run;
 mod thread;
 
 use std::sync::Arc;
 
 pub use command::RunCommand;
-pub use drift::Jump;
-pub use frame::{BodyFrame, EventRow, Frame, RunState};
+pub use frame::{BodyFrame, EventRow, Frame, Jump, RunState};
 pub use inline::InlineRunner;
 pub use thread::ThreadRunner;
 

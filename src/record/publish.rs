@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use super::recorder::{Recorder, Run};
+use super::recorder::Recorder;
+use super::run::Run;
 use super::{BodyFrame, Frame};
 use crate::sim::{Plan, Simulation};
 
