@@ -1,7 +1,8 @@
 //! The one table of commands. It feeds menus, tool bar, shortcuts, palette, help sheet and tests.
 
 use super::Session;
-use super::command::{Command, CommandInfo, Key, Menu, Shortcut};
+use super::command::{Command, Key, Menu, Shortcut};
+use super::command_info::CommandInfo;
 use crate::scene::NumberStyle;
 use crate::view::AxisView;
 
@@ -306,6 +307,11 @@ pub const COMMANDS: &[CommandInfo] = &[
     )
     .runs(Command::About),
 ];
+
+/// The row of a command; `None` for those that other tables list (samples, recent files, overlays).
+pub fn info(command: Command) -> Option<&'static CommandInfo> {
+    COMMANDS.iter().find(|row| row.command == command)
+}
 
 const fn row(
     menu: Menu,
