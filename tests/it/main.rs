@@ -53,6 +53,8 @@ mod hard_invariance;
 mod hard_verb;
 // The rules of the source tree: layers, file sizes, function sizes.
 mod layering;
+// Files of a layer import each other in one direction.
+mod layering_circles;
 // Runners with the methods that step by Δt: going back at the Δt of then.
 mod record_methods;
 // The event at which the residual changed most, and going back to it.
