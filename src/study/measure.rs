@@ -47,6 +47,9 @@ impl Limits {
 /// Predictions carried out between two looks at the clock.
 pub(super) const PREDICTIONS: u32 = 256;
 
+/// So many tests of a pair take about a second.
+const TESTS: u64 = 30_000_000;
+
 /// Runs one candidate and compares it. `None` when cancelled. `scene` is what it simulates, so that a test
 /// can put a wrong law on trial.
 pub fn measure(
@@ -75,7 +78,7 @@ pub fn measure(
         if step % every == 0 || step == steps {
             trial.sample();
             control.show(step as f64 / steps as f64);
-        } else if trial.monitor.may_look_often() {
+        } else if trial.may_look_often() {
             trial.look();
         }
     }
@@ -88,6 +91,8 @@ struct Trial<'a> {
     truth: &'a Truth,
     limits: &'a Limits,
     monitor: OverlapMonitor,
+    /// Tests of a pair that may still be made at events.
+    tests_left: u64,
     /// The dynamic bodies in the order of the file.
     bodies: Vec<BodyRef>,
     /// Index in the scene of dynamic and of static bodies.
@@ -115,7 +120,8 @@ impl<'a> Trial<'a> {
         let fixed = (0..sim.static_count() as u32).map(|k| index(BodyRef::Static(k))).collect();
         bodies.sort_by_key(|&body| index(body));
         Self {
-            monitor: OverlapMonitor::new(scene),
+            monitor: OverlapMonitor::in_file_order(scene),
+            tests_left: TESTS,
             bodies,
             dynamic,
             fixed,
@@ -175,7 +181,7 @@ impl<'a> Trial<'a> {
             self.hits
                 .push(Hit { time: event.time, bodies: [self.scene_index(event.a), self.scene_index(b)] });
         }
-        if self.monitor.may_look_often() {
+        if self.may_look_often() {
             self.look();
         }
     }
@@ -186,6 +192,12 @@ impl<'a> Trial<'a> {
             BodyRef::Static(k) => self.fixed.get(k as usize),
         };
         found.copied().unwrap_or(usize::MAX)
+    }
+
+    /// Whether there is time left to look at every event too, not at samples alone.
+    fn may_look_often(&mut self) -> bool {
+        self.tests_left = self.tests_left.saturating_sub(self.monitor.tests());
+        self.tests_left > 0
     }
 
     /// Looks for overlaps.

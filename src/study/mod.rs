@@ -2,6 +2,7 @@
 
 // The hard cases with their known answers.
 pub mod cases;
+pub mod closed_form;
 
 // What a study is asked, and what it answers.
 mod axes;
@@ -14,12 +15,13 @@ mod control;
 mod hits;
 mod measure;
 mod overlap;
+mod random;
 pub mod reference;
 mod run;
 mod timing;
 mod truth;
 
-// How it is told.
+// How it is shown.
 mod chart;
 mod csv;
 mod scale;
@@ -33,6 +35,8 @@ pub use control::{Control, Progress};
 pub use csv::csv;
 pub use hits::{Differences, Hit, compare};
 pub use measure::{Limits, measure};
+pub use overlap::OverlapMonitor;
+pub use random::Random;
 pub use report::{Horizon, HorizonCause, Point, Report, Stop};
 pub use run::{StudyError, run};
 pub use scale::{CurvePoint, Scale, series_of};

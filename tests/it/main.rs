@@ -11,7 +11,7 @@
 
 // The command line through the real program: formats, exit codes, streams, hostile files.
 mod cli;
-// Shared helpers: scenes, seeded numbers, driving, the all-pairs monitor.
+// Shared helpers: scenes, driving, the reference.
 mod common;
 // The command table: unique names and keys, reasons for what is disabled.
 mod editor_commands;

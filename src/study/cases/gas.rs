@@ -6,10 +6,10 @@ use glam::DVec3;
 
 use super::case::{Case, Demand, Source, at_most, file, told};
 use super::monitor::Monitor;
-use super::random::Random;
 use super::trial::{Stop, Trial};
 use crate::scene::{Body, Map, Motion, NodeKey, Scene, Shape, SimParams};
 use crate::sim::BodyRef;
+use crate::study::Random;
 
 const DEMANDS: &[Demand] = &[
     at_most(1e-10, "", "energy off, relative"),

@@ -3,7 +3,6 @@
 
 mod case;
 mod monitor;
-mod random;
 mod table;
 mod trial;
 

@@ -4,10 +4,10 @@ use glam::DVec3;
 
 use super::case::{Case, SMALL_BUDGET, at_most, file};
 use super::monitor::Monitor;
-use super::random::Random;
 use super::trial::{Stop, Trial, states};
 use crate::scene::{Body, Scene};
 use crate::sim::{BodyState, Simulation};
+use crate::study::Random;
 
 pub(super) const BILLIARD: Case = Case {
     number: 5,

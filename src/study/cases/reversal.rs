@@ -4,10 +4,10 @@
 use glam::DVec3;
 
 use super::case::{Case, SMALL_BUDGET, at_most, file, told};
-use super::random::Random;
 use super::trial::{Stop, Trial, states};
 use crate::scene::{Motion, Scene};
 use crate::sim::BodyState;
+use crate::study::Random;
 
 pub(super) const REVERSAL: Case = Case {
     number: 20,
