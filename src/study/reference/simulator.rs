@@ -71,6 +71,9 @@ const HALVINGS: usize = 70;
 const LONGEST: f64 = 0.05;
 /// Impacts this close in time, s, may have come in either order, for all that rounding tells.
 const SAME_INSTANT: f64 = 1e-13;
+/// A closing speed below this part of the two speeds that it is the difference of is their rounding: the pair
+/// touches in passing. Each of the three products of v·n is rounded, and so is n itself.
+const SPEED_ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// Lasting contact: the bounces that are left take less than this together, s, ...
 const ALL_BOUNCES: f64 = 1e-4;
 /// ... or one of them less than this.
@@ -258,8 +261,9 @@ impl Reference {
         let (end, (gap_end, rate_end)) = to;
         let is_open = |t: f64| self.gap_after(pair, t).0 > 0.0;
         let is_opening = |t: f64| self.gap_after(pair, t).1 > 0.0;
+        let is_closing = |rate: f64| rate < -SPEED_ROUNDING * self.speeds(pair);
         // A pair that touches and approaches meets now: hit by a third one, or its gap stayed below rounding.
-        if gap_start.distance <= 0.0 && rate_start < 0.0 {
+        if gap_start.distance <= 0.0 && is_closing(rate_start) {
             return Some(start);
         }
         // A pair that parts from its last impact is looked at from where its gap is widest.
@@ -280,7 +284,20 @@ impl Reference {
         } else {
             return None;
         };
-        (is_open(open) && !is_open(closed)).then(|| bisect(open, closed, is_open).1)
+        if !is_open(open) || is_open(closed) {
+            return None;
+        }
+        let contact = bisect(open, closed, is_open).1;
+        is_closing(self.gap_after(pair, contact).1).then_some(contact)
+    }
+
+    /// Sum of the speeds that a closing speed of the pair is the difference of, m/s.
+    fn speeds(&self, pair: Pair) -> f64 {
+        let speed = |i: usize| self.balls[i].velocity.value.length();
+        match pair {
+            Pair::Balls(i, j) => speed(i) + speed(j),
+            Pair::Static(i, _) => speed(i),
+        }
     }
 
     /// Gap and opening rate of a pair some time after the start of the step.
