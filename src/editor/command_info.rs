@@ -19,7 +19,7 @@ pub struct CommandInfo {
     pub icon: Option<char>,
     /// One sentence.
     pub help: &'static str,
-    /// `Err` says why the command can't be used now.
+    /// `Err` says why the command cannot be used now.
     pub enabled: fn(&Session) -> Result<(), &'static str>,
 }
 

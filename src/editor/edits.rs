@@ -66,7 +66,7 @@ impl Session {
         self.edit(&Edit::Duplicate { keys, offset }, None)
     }
 
-    /// Deletes the selection; locked items stay and are told.
+    /// Deletes the selection; locked items stay and are reported.
     pub(super) fn delete(&mut self) -> Outcome {
         let Some(scene) = self.scene() else { return Outcome::no_scene() };
         let protected = locked_keys(scene);
@@ -76,7 +76,7 @@ impl Session {
             return Outcome::Refused("Locked: unlock it first".to_owned());
         }
         if !locked.is_empty() {
-            self.notices.push(Notice::warning(format!("{} locked objects were left", locked.len())));
+            self.notices.push(Notice::warning(format!("{} locked objects were kept", locked.len())));
         }
         self.edit(&Edit::Delete { keys }, None)
     }

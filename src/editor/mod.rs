@@ -50,4 +50,4 @@ pub use recovered::Recovered;
 pub use samples::{SAMPLES, Sample, SampleGroup};
 pub use selection::{Place, Selection};
 pub use session::Session;
-pub use settings::{Settings, Storage};
+pub use settings::{EditorSettings, Storage};

@@ -16,7 +16,7 @@ pub(super) struct Recovery {
     /// The document state that the copy holds.
     pub(super) copied: Option<u64>,
     pub(super) last: Option<Instant>,
-    /// Told once, not every ten seconds.
+    /// Reported once, not every ten seconds.
     pub(super) failed: bool,
 }
 

@@ -26,7 +26,7 @@ impl Session {
             Ok(()) => self.recovery.copied = Some(state),
             Err(err) if !self.recovery.failed => {
                 self.recovery.failed = true;
-                self.notices.push(Notice::warning(format!("Unsaved work can't be kept safe: {err}")));
+                self.notices.push(Notice::warning(format!("Unsaved work cannot be kept safe: {err}")));
             }
             Err(_) => {}
         }

@@ -9,7 +9,7 @@ use super::disk::DiskStamp;
 use super::history::History;
 use super::live::differs;
 use super::recovery::Recovery;
-use super::{Gesture, Notice, Playback, Selection, Settings, Storage};
+use super::{EditorSettings, Gesture, Notice, Playback, Selection, Storage};
 use crate::record::{EventRow, Frame, Runner};
 use crate::scene::{Document, NodeKey, Scene};
 
@@ -19,7 +19,7 @@ pub struct Session {
     pub(super) file: OpenFile,
     pub(super) selection: Selection,
     pub(super) playback: Playback,
-    pub(super) settings: Settings,
+    pub(super) settings: EditorSettings,
     pub(super) storage: Storage,
     pub(super) recovery: Recovery,
     pub(super) notices: Vec<Notice>,
@@ -49,14 +49,14 @@ pub(super) struct OpenFile {
     /// What the file held when it was read or written.
     pub stamp: Option<DiskStamp>,
     /// Whether the user knows that another program changed it.
-    pub told_changed: bool,
+    pub reported_change: bool,
 }
 
 pub(super) struct Running {
     pub(super) scene: Scene,
     /// Whether it was changed since it was loaded, so that going back to its start is not enough.
     pub(super) edited: bool,
-    /// The document has changes that this run can't take.
+    /// The document has changes that this run cannot take.
     pub(super) needs_reset: bool,
 }
 
@@ -107,7 +107,7 @@ impl Session {
         &self.playback
     }
 
-    pub fn settings(&self) -> &Settings {
+    pub fn settings(&self) -> &EditorSettings {
         &self.settings
     }
 

@@ -3,7 +3,7 @@
 use super::history::History;
 use super::recovery::Recovery;
 use super::session::OpenFile;
-use super::{Playback, Selection, Session, Settings, Storage};
+use super::{EditorSettings, Playback, Selection, Session, Storage};
 use crate::record::Runner;
 use crate::scene::{Document, NumberStyle};
 
@@ -16,7 +16,7 @@ impl Session {
     /// A new, empty scene, with settings and recovery files in the folders given. Asks for what to do
     /// with unsaved work of an earlier run.
     pub fn with_storage(runner: Box<dyn Runner>, storage: Storage) -> Self {
-        let settings = Settings::load(&storage);
+        let settings = EditorSettings::load(&storage);
         let mut playback = Playback::default();
         if let Some(dt) = &settings.dt {
             // a Δt that is no longer accepted leaves the default

@@ -24,7 +24,7 @@ impl Session {
         let frame = self.runner.frame();
         self.playback.look_at(&frame);
         if frame.fault != self.frame.fault {
-            self.tell_fault(&frame);
+            self.report_fault(&frame);
         }
         self.frame = frame;
         let listed =
@@ -39,14 +39,14 @@ impl Session {
         }
     }
 
-    /// Whether the scene can't be simulated. Says so only when the runner has tried.
+    /// Whether the scene cannot be simulated. Says so only when the runner has tried.
     pub(super) fn has_no_simulation(&self) -> bool {
         let failed =
             self.frame.state == RunState::Empty && self.frame.problems.iter().any(Diagnostic::is_error);
         self.running.is_none() || failed
     }
 
-    fn tell_fault(&mut self, frame: &Frame) {
+    fn report_fault(&mut self, frame: &Frame) {
         let Some(fault) = &frame.fault else { return };
         if frame.state == RunState::Faulted {
             self.notices.push(Notice::error(format!("The simulation stopped: {fault}")));
@@ -74,7 +74,7 @@ impl Session {
         }
     }
 
-    /// Tells the runner about the document, at once or, inside a gesture, when it has settled.
+    /// Brings the document to the runner, at once or, inside a gesture, when it has settled.
     pub(super) fn document_changed(&mut self) {
         self.selection.purge(self.history.document().scene());
         match self.history.open_gesture() {

@@ -10,7 +10,7 @@ use crate::sim::{ContactState, Counters, Energy, Event, Method, Momentum, Plan, 
 /// What a runner is doing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum RunState {
-    /// No simulation: nothing loaded, or the scene can't be simulated.
+    /// No simulation: nothing loaded, or the scene cannot be simulated.
     #[default]
     Empty,
     Paused,
@@ -99,7 +99,7 @@ pub struct Frame {
     pub real_speed: f64,
     /// Whether there is something to step back to.
     pub can_step_back: bool,
-    /// Why the scene can't be simulated, or geometric warnings of the start.
+    /// Why the scene cannot be simulated, or geometric warnings of the start.
     pub problems: Arc<Vec<Diagnostic>>,
     /// The numerical fault, or why the last edit was refused.
     pub fault: Option<String>,

@@ -28,6 +28,6 @@ pub trait Runner {
     /// The newest picture of the simulation.
     fn frame(&self) -> Arc<Frame>;
 
-    /// Tells an inline runner that `wall_s` seconds have passed while it plays. A thread keeps its own time.
+    /// Lets an inline runner know that `wall_s` seconds have passed while it plays. A thread keeps its own time.
     fn tick(&mut self, wall_s: f64);
 }

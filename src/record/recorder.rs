@@ -1,5 +1,5 @@
 //! The recorder: carries out commands on a simulation, step by step, and keeps what is needed to go back.
-//! It has no clock and never blocks: a runner calls [`Recorder::work`] as often as it likes.
+//! It has no clock and never blocks: a runner calls [`RunRecorder::work`] as often as it likes.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -11,11 +11,11 @@ use crate::sim::{Method, SimEdit, Simulation};
 
 /// Drives one simulation.
 #[derive(Debug, Default)]
-pub(super) struct Recorder {
+pub(super) struct RunRecorder {
     pub(super) run: Option<Run>,
     /// How simulations are stepped.
     pub(super) method: Method,
-    /// Why the scene can't be simulated, or geometric warnings of the start.
+    /// Why the scene cannot be simulated, or geometric warnings of the start.
     pub(super) problems: Arc<Vec<Diagnostic>>,
     task: Task,
     waiting: VecDeque<RunCommand>,
@@ -32,7 +32,7 @@ enum Task {
     },
     ToEvent {
         dt: f64,
-        /// Δt looked through in vain so far.
+        /// Δt without an event so far.
         empty: u32,
     },
     Finish,
@@ -44,7 +44,7 @@ enum Task {
     },
 }
 
-/// Wall-clock seconds of playing that may wait to be simulated. A machine that can't follow falls behind
+/// Wall-clock seconds of playing that may wait to be simulated. A machine that cannot follow falls behind
 /// by this much and then plays slower, with the same Δt.
 const MOST_DUE: f64 = 0.1;
 
@@ -52,7 +52,7 @@ const MOST_DUE: f64 = 0.1;
 /// any more does not run for ever.
 const MOST_EMPTY_STEPS: u32 = 100_000;
 
-impl Recorder {
+impl RunRecorder {
     /// Takes a command. Those that end what is being done act at once; others wait for it.
     pub(super) fn command(&mut self, command: RunCommand) {
         match command {
@@ -85,7 +85,7 @@ impl Recorder {
         }
     }
 
-    /// Tells that wall-clock time has passed, while playing.
+    /// Notes that wall-clock time has passed, while playing.
     pub(super) fn elapse(&mut self, wall_s: f64) {
         if let Task::Play { dt, speed, due } = &mut self.task {
             *due = (*due + wall_s.max(0.0) * *speed).min(MOST_DUE * *speed + *dt);
@@ -114,7 +114,7 @@ impl Recorder {
         true
     }
 
-    /// Does one Δt of the task, or what the budget allows; false when a task can't go on for now.
+    /// Does one Δt of the task, or what the budget allows; false when a task cannot go on for now.
     fn advance_task(task: &mut Task, run: &mut Run, budget: &mut u32) -> bool {
         match task {
             Task::Idle => {}

@@ -94,7 +94,7 @@ mod tests {
 
     use super::Run;
     use crate::record::publish::{Pace, frame_of};
-    use crate::record::recorder::Recorder;
+    use crate::record::recorder::RunRecorder;
     use crate::record::{Frame, RunCommand, RunState};
     use crate::scene::{Document, NodeKey};
     use crate::sim::{Force, SimEdit, Simulation, Subject};
@@ -113,19 +113,19 @@ mod tests {
         }
     }
 
-    fn recorder(force: Option<Arc<Breakable>>) -> Recorder {
+    fn recorder(force: Option<Arc<Breakable>>) -> RunRecorder {
         let document = Document::from_bytes(include_bytes!("../../scenes/bounce.xml"));
         let scene = document.scene().unwrap().clone();
         let mut simulation = Simulation::new(&scene).unwrap();
         if let Some(force) = force {
             simulation.add_force(force).unwrap();
         }
-        let mut recorder = Recorder::default();
+        let mut recorder = RunRecorder::default();
         recorder.run = Some(Run::new(simulation, Box::new(scene)));
         recorder
     }
 
-    fn frame_after(recorder: &mut Recorder, command: RunCommand) -> Frame {
+    fn frame_after(recorder: &mut RunRecorder, command: RunCommand) -> Frame {
         recorder.command(command);
         while recorder.work(u32::MAX) {}
         frame_of(recorder, 1, Pace::default())

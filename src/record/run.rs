@@ -140,7 +140,7 @@ impl Run {
             let end = self.grid.open.map_or(0.0, |(_, end)| end);
             let lost = self.history.divide_time_anew(&self.simulation, self.last_event, end);
             if lost > 0 {
-                self.message = Some(format!("{lost} edit(s) made later, in steps of another Δt"));
+                self.message = Some(format!("{lost} edit(s) made later, with another Δt, no longer apply"));
             }
         }
         self.grid.open.unwrap_or_default()

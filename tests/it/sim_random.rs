@@ -11,7 +11,7 @@ use crate::common::drive::{Sampling, run, simulation, watch};
 use crate::common::load::load;
 use crate::common::reference::{reference, with_settings};
 use polyscene::study::reference::geometry::Surface;
-use polyscene::study::reference::{End, Settings};
+use polyscene::study::reference::{End, ReferenceSettings};
 use polyscene::study::{OverlapMonitor, Random};
 
 /// What a random scene is made of.
@@ -89,8 +89,9 @@ fn free_place(scene: &Scene, radius: f64, random: &mut Random) -> DVec3 {
 fn elastic_scenes_agree_with_the_reference() {
     for seed in 0..10 {
         let scene = random_scene(seed, Contents::Elastic);
-        let [mut reference, mut check] =
-            [0.2, 0.07].map(|stride| with_settings(&scene, Settings { stride, ..Settings::default() }));
+        let [mut reference, mut check] = [0.2, 0.07].map(|stride| {
+            with_settings(&scene, ReferenceSettings { stride, ..ReferenceSettings::default() })
+        });
         let events = run(&scene, 3.0, Sampling::Every(1.0 / 60.0)).events;
         let sim = simulation(&scene);
         assert!(events.len() >= 10, "seed {seed}: only {} events", events.len());

@@ -8,7 +8,7 @@ use crate::common::build::{Build, Shaped, ball, empty, plate, static_ball, thesi
 use crate::common::reference::{reference, with_settings};
 use crate::sim_chain::counting_pi;
 use polyscene::study::closed_form::{Bounces, FallInAir, cradle, pi_collisions};
-use polyscene::study::reference::{End, Settings};
+use polyscene::study::reference::{End, ReferenceSettings};
 
 #[test]
 fn kepler_orbit_closes() {
@@ -76,7 +76,8 @@ fn energy_stays_on_the_thesis_scene() {
 #[test]
 fn thirty_events_do_not_depend_on_the_step() {
     let [coarse, fine] = [0.3, 0.05].map(|stride| {
-        let mut reference = with_settings(&thesis(), Settings { stride, ..Settings::default() });
+        let mut reference =
+            with_settings(&thesis(), ReferenceSettings { stride, ..ReferenceSettings::default() });
         (0..30).filter_map(|_| reference.next_impact(60.0).ok().flatten()).collect::<Vec<_>>()
     });
     assert_eq!((coarse.len(), fine.len()), (30, 30));
@@ -100,7 +101,7 @@ fn touching_balls_pass_a_blow_on() {
         let speed = if k == 1 { 2.0 } else { 0.0 };
         scene.ball(k, dvec3(k as f64, 5.0, 5.0), dvec3(speed, 0.0, 0.0))
     });
-    for settings in [Settings::default(), Settings::check()] {
+    for settings in [ReferenceSettings::default(), ReferenceSettings::check()] {
         let mut reference = with_settings(&scene, settings);
         assert_eq!(reference.impacts(1.0).expect("finite").len(), 4);
         for (ball, expected) in reference.balls().iter().zip(cradle(5, 1, DVec3::X * 2.0)) {
@@ -120,7 +121,7 @@ fn touching_a_wall_in_passing_is_no_impact() {
         .body(plate(2, dvec3(0.0, 5.0, 5.0), dvec3(0.0, FRAC_PI_2, 0.0), 5.0, 5.0).bounce(0.8))
         .ball(3, dvec3(0.5, 0.6, 5.0), DVec3::ZERO)
         .ball(4, dvec3(0.5, 1.7, 5.0), DVec3::ZERO);
-    for settings in [Settings::default(), Settings::check()] {
+    for settings in [ReferenceSettings::default(), ReferenceSettings::check()] {
         let mut reference = with_settings(&scene, settings);
         let mut impacts = Vec::new();
         while let Ok(Some(impact)) = reference.next_impact(3.0) {

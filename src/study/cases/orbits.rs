@@ -4,18 +4,18 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::case::{Case, Demand, SMALL_BUDGET, at_most, file, told};
+use super::case::{Case, Demand, SMALL_BUDGET, at_most, file, reported};
 use super::monitor::Monitor;
 use super::trial::{Stop, Trial, state_of};
 use crate::scene::{ForceKind, Motion, Scene};
 use crate::sim::{EventKind, SimEdit};
 use crate::study::closed_form::{Ellipse, Plunge};
-use crate::study::reference::{Reference, Settings};
+use crate::study::reference::{Reference, ReferenceSettings};
 
 const DEMANDS: &[Demand] = &[
     at_most(1e-9, "", "energy off, relative"),
     at_most(1e-6, "", "position off, in semi-axes"),
-    told("", "force evaluations per orbit"),
+    reported("", "force evaluations per orbit"),
 ];
 
 /// The attractor of all three scenes.
@@ -131,7 +131,8 @@ fn switched(trial: &Trial) -> Result<Vec<f64>, Stop> {
     let (mut off, mut residual) = (0.0_f64, 0.0_f64);
     // Near the first periapsis the comet is 1 m off the centre at 1.8 s: there the pull becomes a push.
     for (duration, intensity) in [(1.8, -10.0), (0.25, 10.0), (1.0, -2.5), (1.0, 10.0), (2.0, 10.0)] {
-        let mut reference = Reference::new(&scene, Settings::check()).map_err(|error| unexpected(&error))?;
+        let mut reference =
+            Reference::new(&scene, ReferenceSettings::check()).map_err(|error| unexpected(&error))?;
         reference.impacts(duration).map_err(|error| unexpected(&error))?;
         let until = sim.time() + duration;
         trial.watch(&mut sim, until, |sim, _| {

@@ -52,7 +52,7 @@ fn billiard(trial: &Trial) -> Result<Vec<f64>, Stop> {
     let mut later = 0.0_f64;
     trial.watch(&mut sim, touch + 0.1, |sim, event| {
         monitor.look(sim, event);
-        // Between the mirror images of one impact the rest of its group has still to be told.
+        // Between the mirror images of one impact the rest of its group is still to be reported.
         if event.is_none() {
             later = later.max(asymmetry(sim, &pairs));
         }
