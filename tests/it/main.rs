@@ -103,6 +103,8 @@ mod sim_random;
 mod sim_roots;
 // The thesis's own scene against the reference, and its invariants over a minute.
 mod sim_thesis;
+// Contact scenes from seeds: seams, corners, squeezes, slots, pits, heaps, at any size.
+mod sim_variants;
 // The reference against closed forms and itself, and where it says that it can't be trusted.
 mod study_reference;
 // Whole studies: exact comes out exact, wrong laws are found out, horizon, cancelling, files.

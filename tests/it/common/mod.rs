@@ -2,6 +2,7 @@
 //! and the naive reference.
 
 pub mod build;
+pub mod contact_scenes;
 pub mod drive;
 pub mod load;
 pub mod reference;
