@@ -115,7 +115,7 @@ impl Session {
         match self.write_recovery() {
             Ok(()) => found.forget(),
             Err(err) => {
-                self.notices.push(Notice::warning(format!("Unsaved work cannot be kept safe: {err}")))
+                self.notices.push(Notice::warning(format!("Unsaved work cannot be kept safe: {err}")));
             }
         }
         self.notices.push(Notice::info("Restored. Save to keep it."));

@@ -53,9 +53,12 @@ fn files_of_a_layer_do_not_import_each_other_in_circles() {
     assert!(gone.is_empty(), "exceptions for imports that are no longer there: {gone:#?}");
 }
 
+/// What it shows, the files with their texts, and the imports that must be found.
+type ScanCase = (&'static str, &'static [(&'static str, &'static str)], &'static [&'static str]);
+
 #[test]
 fn the_scan_follows_paths_to_the_file_that_defines_the_item() {
-    let cases: [(&str, &[(&str, &str)], &[&str]); 10] = [
+    let cases: [ScanCase; 10] = [
         ("a path to a sibling", &[("x/a.rs", "use super::b::B;"), ("x/b.rs", "pub struct B;")], &["a b"]),
         (
             "a group, an alias and a glob",

@@ -6,17 +6,20 @@ use polyscene::study::OverlapMonitor;
 
 use crate::common::contact_scenes::{ContactScene, Family, contact_scene, scaled};
 
+/// Lengths and times, each over those of a scene of half a metre.
+type Sizes = &'static [(f64, f64)];
+
 /// Families whose scenes all hold, with how many seeds and at which sizes. A family that is missing here does
 /// not hold yet: its line belongs to the change that makes it hold.
-const SWITCHED_ON: &[(Family, u64, &[(f64, f64)])] = &[
+const SWITCHED_ON: &[(Family, u64, Sizes)] = &[
     (Family::Corner, 12, SIZES),
     (Family::Squeeze, 12, SIZES),
     (Family::LossyFloor, 12, SIZES),
     (Family::WallAndFloor, 12, SIZES),
 ];
 
-/// Lengths and times, in those of the scene of half a metre: micrometres to thousands of kilometres.
-const SIZES: &[(f64, f64)] = &[(1.0, 1.0), (1e-6, 1e-3), (1e-3, 1.0), (1e3, 1.0), (1e6, 1e3)];
+/// From micrometres to thousands of kilometres.
+const SIZES: Sizes = &[(1.0, 1.0), (1e-6, 1e-3), (1e-3, 1.0), (1e3, 1.0), (1e6, 1e3)];
 
 /// Calls of `work` before a run counts as stalled.
 const MOST_CALLS: u64 = 200_000;
