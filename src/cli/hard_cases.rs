@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use super::{CliError, output};
 use crate::scene::write_atomically;
-use crate::study::cases::{CASES, Case, Figure, Outcome, STEPS, markdown, measure, text};
+use crate::study::cases::{CASES, Case, CaseResult as Outcome, Figure, STEPS, markdown, measure, text};
 
 /// Measure the hard cases: scenes with known outcomes at which methods fail
 ///

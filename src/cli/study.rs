@@ -10,7 +10,9 @@ use super::output::{self, is_stdout};
 use super::{CliError, input, interrupt, method, number};
 use crate::scene::check_writable;
 use crate::sim::Method;
-use crate::study::{self, AXES, Control, KNOBS, Report, Settings, StudyError};
+use crate::study::{
+    self, AXES, Control, KNOBS, StudyError, StudyReport as Report, StudySettings as Settings,
+};
 
 /// Compare the speed and the errors of every method on a scene
 ///
@@ -105,7 +107,7 @@ pub(super) fn study(args: &StudyArgs) -> Result<(), CliError> {
     }
 
     let bar = bar();
-    let mut show = |progress: &study::Progress| {
+    let mut show = |progress: &study::StudyProgress| {
         bar.set_position((progress.part * PARTS) as u64);
         bar.set_message(progress.what.clone());
     };

@@ -1,7 +1,8 @@
 //! The one table of commands. It feeds menus, tool bar, shortcuts, palette, help sheet and tests.
 
 use super::Session;
-use super::command::{Command, CommandInfo, Key, Menu, Shortcut};
+use super::command::{Command, Key, Menu, Shortcut};
+use super::command_info::CommandInfo;
 use crate::scene::NumberStyle;
 use crate::view::AxisView;
 
@@ -33,12 +34,12 @@ pub const COMMANDS: &[CommandInfo] = &[
         .runs(Command::Quit)
         .keys(&[Shortcut::ctrl('Q')]),
     //
-    row(Menu::Edit, 0, "undo", "Undo", "Takes the last edit of the scene back")
+    row(Menu::Edit, 0, "undo", "Undo", "Takes back the last edit of the scene")
         .runs(Command::Undo)
         .icon('↩')
         .keys(&[Shortcut::ctrl('Z')])
         .when(Session::can_undo),
-    row(Menu::Edit, 0, "redo", "Redo", "Does the edit again that was taken back")
+    row(Menu::Edit, 0, "redo", "Redo", "Repeats the edit that was taken back")
         .runs(Command::Redo)
         .icon('↪')
         .keys(&[Shortcut::ctrl('Y'), Shortcut::ctrl_shift('Z')])
@@ -72,11 +73,11 @@ pub const COMMANDS: &[CommandInfo] = &[
     row(Menu::Edit, 2, "select_none", "Select none", "Clears the selection")
         .runs(Command::SelectNone)
         .keys(&[Shortcut::plain(Key::Escape)]),
-    row(Menu::Edit, 2, "find", "Find in the scene tree", "Shows only what has the letters typed in its name")
+    row(Menu::Edit, 2, "find", "Find in the scene tree", "Shows only what has the typed letters in its name")
         .runs(Command::Find)
         .keys(&[Shortcut::ctrl('F')])
         .when(Session::has_scene),
-    row(Menu::Edit, 3, "rename", "Rename", "Gives what was selected last a name")
+    row(Menu::Edit, 3, "rename", "Rename", "Gives a name to what was selected last")
         .runs(Command::Rename)
         .keys(&[Shortcut::plain(Key::Function(2))])
         .when(Session::has_selection),
@@ -100,9 +101,15 @@ pub const COMMANDS: &[CommandInfo] = &[
     row(Menu::Edit, 3, "unlock_all", "Unlock all", "Lets everything be moved and deleted again")
         .runs(Command::UnlockAll)
         .when(Session::has_locked),
-    row(Menu::Edit, 4, "make_ids_unique", "Make IDs unique", "Gives a fresh UserID to all that repeat one")
-        .runs(Command::MakeIdsUnique)
-        .when(Session::has_repeated_ids),
+    row(
+        Menu::Edit,
+        4,
+        "make_ids_unique",
+        "Make IDs unique",
+        "Gives a new UserID to everything that repeats one",
+    )
+    .runs(Command::MakeIdsUnique)
+    .when(Session::has_repeated_ids),
     row(
         Menu::Edit,
         4,
@@ -161,7 +168,7 @@ pub const COMMANDS: &[CommandInfo] = &[
         .icon('⏮')
         .keys(&[Shortcut::plain(Key::Char('R'))])
         .when(Session::can_reset),
-    row(Menu::Simulation, 0, "event_back", "Event back", "Goes back to the event before")
+    row(Menu::Simulation, 0, "event_back", "Event back", "Goes back to the previous event")
         .runs(Command::EventBack)
         .icon('⏪')
         .keys(&[Shortcut::plain(Key::Char('B'))])
@@ -302,10 +309,15 @@ pub const COMMANDS: &[CommandInfo] = &[
         1,
         "about",
         "About PolyScene",
-        "Tells the version, the licence and where to report a fault",
+        "Shows the version, the licence and where to report a fault",
     )
     .runs(Command::About),
 ];
+
+/// The row of a command; `None` for those that other tables list (samples, recent files, overlays).
+pub fn info(command: Command) -> Option<&'static CommandInfo> {
+    COMMANDS.iter().find(|row| row.command == command)
+}
 
 const fn row(
     menu: Menu,

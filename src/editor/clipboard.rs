@@ -3,13 +3,12 @@
 
 use glam::DVec3;
 
-use super::edits::no_scene;
 use super::{Outcome, Request, Session};
 use crate::scene::{Document, Edit, NodeKey, NumberStyle, Scene};
 
 impl Session {
     pub(super) fn copy(&mut self) -> Outcome {
-        let Some(scene) = self.scene() else { return no_scene() };
+        let Some(scene) = self.scene() else { return Outcome::no_scene() };
         match text_of(scene, self.selection.keys()) {
             Ok(text) => self.requests.push(Request::SetClipboard(text)),
             Err(reason) => return Outcome::Refused(reason),

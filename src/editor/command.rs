@@ -2,8 +2,6 @@
 
 use std::fmt;
 
-use super::Session;
-use super::catalog::COMMANDS;
 use crate::scene::NumberStyle;
 use crate::view::AxisView;
 
@@ -88,6 +86,12 @@ pub enum Outcome {
     NotMine,
     /// Why it could not be done; also given as a notice.
     Refused(String),
+}
+
+impl Outcome {
+    pub(super) fn no_scene() -> Self {
+        Self::Refused("The file has errors that leave no scene to edit".to_owned())
+    }
 }
 
 /// The menu that lists a command.
@@ -181,53 +185,4 @@ impl fmt::Display for Shortcut {
             Key::Function(n) => write!(f, "F{n}"),
         }
     }
-}
-
-/// One row of [`COMMANDS`].
-#[derive(Clone, Copy)]
-pub struct CommandInfo {
-    pub command: Command,
-    /// Stable name for tests and logs.
-    pub id: &'static str,
-    /// Sentence case; ends in `…` when a dialog follows.
-    pub label: &'static str,
-    pub menu: Menu,
-    /// Rows of the same menu with another group are parted by a line.
-    pub group: u8,
-    /// The first is the one shown.
-    pub shortcuts: &'static [Shortcut],
-    pub icon: Option<char>,
-    /// One sentence.
-    pub help: &'static str,
-    /// `Err` says why the command can't be used now.
-    pub enabled: fn(&Session) -> Result<(), &'static str>,
-}
-
-impl CommandInfo {
-    /// What to write on a button or menu entry now: `Undo` also says what.
-    pub fn label_now(&self, session: &Session) -> String {
-        let subject = match self.command {
-            Command::Undo => session.undo_label(),
-            Command::Redo => session.redo_label(),
-            _ => None,
-        };
-        subject.map_or_else(|| self.label.to_owned(), |subject| format!("{}: {subject}", self.label))
-    }
-
-    /// Help, why it is disabled now, and the shortcut, for a tooltip.
-    pub fn tooltip(&self, session: &Session) -> String {
-        let mut text = format!("{}. {}", self.label.trim_end_matches('…'), self.help);
-        if let Some(shortcut) = self.shortcuts.first() {
-            text.push_str(&format!(" ({shortcut})"));
-        }
-        if let Err(reason) = (self.enabled)(session) {
-            text.push_str(&format!("\nNot now: {reason}."));
-        }
-        text
-    }
-}
-
-/// The row of a command; `None` for those that other tables list (samples, recent files, overlays).
-pub fn info(command: Command) -> Option<&'static CommandInfo> {
-    COMMANDS.iter().find(|row| row.command == command)
 }

@@ -2,7 +2,6 @@
 
 use glam::DVec3;
 
-use super::edits::no_scene;
 use super::{Command, Outcome, Session};
 use crate::scene::{Body, Edit, Force, ForceKind, Motion, NodeKey, Scene, Shape, rotation_matrix};
 
@@ -18,7 +17,7 @@ const PLACES_TRIED: u32 = 400;
 impl Session {
     /// Adds what an `Add…` command names, and selects it.
     pub(super) fn add(&mut self, command: Command) -> Outcome {
-        let Some(scene) = self.scene() else { return no_scene() };
+        let Some(scene) = self.scene() else { return Outcome::no_scene() };
         let middle = scene.map.size / 2.0;
         let edit = match command {
             Command::AddSphereDynamic => {

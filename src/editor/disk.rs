@@ -31,7 +31,7 @@ impl DiskStamp {
     }
 }
 
-/// Whether the file no longer holds what it held at `stamp`; a file that is gone or can't be read counts
+/// Whether the file no longer holds what it held at `stamp`; a file that is gone or cannot be read counts
 /// as changed.
 pub(super) fn has_changed(path: &Path, stamp: DiskStamp) -> bool {
     DiskStamp::of(path).ok() != Some(stamp)

@@ -60,15 +60,15 @@ impl Session {
     }
 
     pub(super) fn duplicate(&mut self) -> Outcome {
-        let Some(scene) = self.scene() else { return no_scene() };
+        let Some(scene) = self.scene() else { return Outcome::no_scene() };
         let keys = self.selection.keys().to_vec();
         let offset = super::creation::offset_of_copy(scene, &keys);
         self.edit(&Edit::Duplicate { keys, offset }, None)
     }
 
-    /// Deletes the selection; locked items stay and are told.
+    /// Deletes the selection; locked items stay and are reported.
     pub(super) fn delete(&mut self) -> Outcome {
-        let Some(scene) = self.scene() else { return no_scene() };
+        let Some(scene) = self.scene() else { return Outcome::no_scene() };
         let protected = locked_keys(scene);
         let (locked, keys): (Vec<NodeKey>, Vec<NodeKey>) =
             self.selection.keys().iter().partition(|key| protected.contains(key));
@@ -76,7 +76,7 @@ impl Session {
             return Outcome::Refused("Locked: unlock it first".to_owned());
         }
         if !locked.is_empty() {
-            self.notices.push(Notice::warning(format!("{} locked objects were left", locked.len())));
+            self.notices.push(Notice::warning(format!("{} locked objects were kept", locked.len())));
         }
         self.edit(&Edit::Delete { keys }, None)
     }
@@ -113,7 +113,7 @@ impl Session {
 
     /// Gives the bodies the one change and the forces the other.
     fn mark(&mut self, keys: &[NodeKey], of_body: &BodyChange, of_force: &ForceChange) -> Outcome {
-        let Some(scene) = self.scene() else { return no_scene() };
+        let Some(scene) = self.scene() else { return Outcome::no_scene() };
         let bodies = body_keys(scene);
         let edits = keys.iter().map(|key| {
             if bodies.contains(key) {
@@ -141,7 +141,7 @@ impl Session {
     /// from them.
     pub(super) fn take_state_as_start(&mut self) -> Outcome {
         self.pause();
-        let Some(scene) = self.scene() else { return no_scene() };
+        let Some(scene) = self.scene() else { return Outcome::no_scene() };
         let there = body_keys(scene);
         let mut edits = Vec::new();
         for now in self.frame.bodies.iter().filter(|now| there.contains(&now.key)) {
@@ -205,8 +205,4 @@ pub(super) fn locked_keys(scene: &Scene) -> BTreeSet<NodeKey> {
 
 fn body_keys(scene: &Scene) -> BTreeSet<NodeKey> {
     scene.bodies.iter().map(|body| body.key).collect()
-}
-
-pub(super) fn no_scene() -> Outcome {
-    Outcome::Refused("The file has errors that leave no scene to edit".to_owned())
 }

@@ -1,13 +1,22 @@
 //! Carrying out actions and commands: which line of the table calls what.
 
-use super::{Action, Command, Intent, Outcome, Request, Session, info};
+use super::{Action, Command, Intent, Notice, Outcome, Request, Session, info};
 use crate::record::{RunCommand, RunState};
 
 /// How many Δt the five-step commands take.
 const MANY_STEPS: u32 = 5;
 
 impl Session {
-    pub(super) fn carry_out(&mut self, action: Action) -> Outcome {
+    /// Carries out what a panel sent.
+    pub fn perform(&mut self, action: Action) -> Outcome {
+        let outcome = self.carry_out(action);
+        if let Outcome::Refused(reason) = &outcome {
+            self.notices.push(Notice::warning(reason.clone()));
+        }
+        outcome
+    }
+
+    fn carry_out(&mut self, action: Action) -> Outcome {
         match action {
             Action::Command(command) => return self.execute(command),
             Action::Edit { edit, gesture } => return self.edit(&edit, gesture),

@@ -55,7 +55,7 @@ pub enum Shared {
     },
 }
 
-/// Puts the values of several objects together; objects without the number don't count.
+/// Puts the values of several objects together; objects without the number do not count.
 pub fn shared(values: impl IntoIterator<Item = Option<f64>>) -> Shared {
     values.into_iter().flatten().fold(Shared::None, |so_far, value| match so_far {
         Shared::None => Shared::Same(value),

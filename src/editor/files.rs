@@ -64,14 +64,14 @@ impl Session {
         }
     }
 
-    /// Opens a file. One that can't be read leaves everything as it was; one with errors is shown with
+    /// Opens a file. One that cannot be read leaves everything as it was; one with errors is shown with
     /// them.
     fn open(&mut self, path: PathBuf) {
         let path = std::path::absolute(&path).unwrap_or(path);
         let stamp = match readable(&path) {
             Ok(stamp) => stamp,
             Err(reason) => {
-                let text = format!("{} can't be opened: {reason}", path.display());
+                let text = format!("{} cannot be opened: {reason}", path.display());
                 return self.notices.push(Notice::error(text));
             }
         };
@@ -79,7 +79,7 @@ impl Session {
         let unread =
             document.diagnostics().iter().find(|problem| problem.is_error() && problem.position.is_none());
         if let (None, Some(problem)) = (document.scene(), unread) {
-            let text = format!("{} can't be opened: {}", path.display(), problem.message);
+            let text = format!("{} cannot be opened: {}", path.display(), problem.message);
             return self.notices.push(Notice::error(text));
         }
         let errors = document.diagnostics().iter().filter(|problem| problem.is_error()).count();
@@ -103,7 +103,7 @@ impl Session {
         let bytes = match found.bytes() {
             Ok(bytes) => bytes,
             Err(err) => {
-                return self.notices.push(Notice::error(format!("The work can't be restored: {err}")));
+                return self.notices.push(Notice::error(format!("The work cannot be restored: {err}")));
             }
         };
         let file = match &found.path {
@@ -114,7 +114,9 @@ impl Session {
         // the old copy goes only when this run has its own
         match self.write_recovery() {
             Ok(()) => found.forget(),
-            Err(err) => self.notices.push(Notice::warning(format!("Unsaved work can't be kept safe: {err}"))),
+            Err(err) => {
+                self.notices.push(Notice::warning(format!("Unsaved work cannot be kept safe: {err}")));
+            }
         }
         self.notices.push(Notice::info("Restored. Save to keep it."));
     }
@@ -163,7 +165,7 @@ impl Session {
 
     fn write(&mut self, path: &Path, then: Option<Intent>) {
         if let Err(err) = self.document().save(path) {
-            let text = format!("{} can't be saved: {err}", path.display());
+            let text = format!("{} cannot be saved: {err}", path.display());
             return self.notices.push(Notice::error(text));
         }
         self.history.mark_saved();
@@ -183,8 +185,8 @@ impl Session {
             self.notices.push(Notice::warning(format!("{} is gone from the disk", self.file.title)));
             self.history.mark_unsaved();
             self.file.stamp = None;
-        } else if has_changed(path, stamp) && !self.file.told_changed {
-            self.file.told_changed = true;
+        } else if has_changed(path, stamp) && !self.file.reported_change {
+            self.file.reported_change = true;
             let text = format!("{} changed on the disk. File > Reload reads it again.", self.file.title);
             self.notices.push(Notice::warning(text));
         }
@@ -195,10 +197,10 @@ impl Session {
         self.store_settings();
     }
 
-    /// Settings are a convenience: that they can't be kept is told, and stops nothing.
+    /// Settings are a convenience: that they cannot be kept is reported, and stops nothing.
     pub(super) fn store_settings(&mut self) {
         if let Err(err) = self.settings.store(&self.storage) {
-            self.notices.push(Notice::warning(format!("Settings can't be kept: {err}")));
+            self.notices.push(Notice::warning(format!("Settings cannot be kept: {err}")));
         }
     }
 
@@ -213,12 +215,12 @@ impl Session {
 
 impl OpenFile {
     pub fn untitled(title: &str) -> Self {
-        Self { path: None, title: title.to_owned(), stamp: None, told_changed: false }
+        Self { path: None, title: title.to_owned(), stamp: None, reported_change: false }
     }
 
     fn at(path: &Path, stamp: Option<DiskStamp>) -> Self {
         let title = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-        Self { path: Some(path.to_owned()), title, stamp, told_changed: false }
+        Self { path: Some(path.to_owned()), title, stamp, reported_change: false }
     }
 }
 
@@ -226,7 +228,7 @@ impl OpenFile {
 fn readable(path: &Path) -> Result<DiskStamp, String> {
     let about = std::fs::metadata(path).map_err(|err| err.to_string())?;
     if !about.is_file() {
-        return Err("it is no file".to_owned());
+        return Err("it is not a file".to_owned());
     }
     DiskStamp::of(path).map_err(|err| err.to_string())
 }

@@ -17,7 +17,7 @@ const MAX_BODIES_HELD: usize = 2_000_000;
 pub struct Gesture(pub u64);
 
 /// A document, and the edit that led to it.
-struct Point {
+struct UndoPoint {
     document: Document,
     /// Such as `Move 5853`; empty for the document as opened.
     label: String,
@@ -27,10 +27,10 @@ struct Point {
 }
 
 pub(super) struct History {
-    past: VecDeque<Point>,
-    present: Point,
+    past: VecDeque<UndoPoint>,
+    present: UndoPoint,
     /// The next one to redo is last.
-    future: Vec<Point>,
+    future: Vec<UndoPoint>,
     /// The state that the file holds; `None` when no state does.
     saved: Option<u64>,
     next_state: u64,
@@ -41,7 +41,7 @@ pub(super) struct History {
 impl History {
     /// `saved` says whether the document is what its file holds.
     pub fn new(document: Document, saved: bool) -> Self {
-        let present = Point { bodies: body_count(&document), document, label: String::new(), state: 0 };
+        let present = UndoPoint { bodies: body_count(&document), document, label: String::new(), state: 0 };
         Self {
             past: VecDeque::new(),
             present,
@@ -77,7 +77,7 @@ impl History {
 
     /// Makes `document` the present. It replaces the present if that came from the same open gesture.
     pub fn push(&mut self, document: Document, label: String, gesture: Option<Gesture>) {
-        let point = Point { bodies: body_count(&document), document, label, state: self.next_state };
+        let point = UndoPoint { bodies: body_count(&document), document, label, state: self.next_state };
         self.next_state += 1;
         self.future.clear();
         let before = std::mem::replace(&mut self.present, point);

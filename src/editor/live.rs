@@ -98,7 +98,7 @@ fn live_body(running: Option<&Body>, wanted: &Body, edits: &mut Vec<SimEdit>) ->
         edits.push(SimEdit::AddBody(Box::new(wanted.clone())));
         return Some(wanted.clone());
     };
-    // ids order the bodies of a simulation, so they can't change while it runs
+    // ids order the bodies of a simulation, so they cannot change while it runs
     let mut next = Body { id: running.id, label: running.label.clone(), ..wanted.clone() };
     match (running.motion, wanted.motion) {
         (Motion::Static, Motion::Static) => {

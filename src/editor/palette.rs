@@ -11,7 +11,7 @@ pub struct PaletteEntry {
     pub label: String,
     /// One sentence.
     pub help: String,
-    /// Why it can't be used now.
+    /// Why it cannot be used now.
     pub disabled: Option<&'static str>,
 }
 

@@ -18,7 +18,7 @@ pub struct Playback {
     speed: f64,
     method: Method,
     /// Set by every command that moves the time, cleared by those that go to the start: a frame alone
-    /// can't tell, it may be older than the last command.
+    /// cannot tell, it may be older than the last command.
     moved: bool,
     /// Frame revision at which a command backwards was sent, the last one to move the time.
     back_since: Option<u64>,
@@ -54,7 +54,7 @@ impl Playback {
 
     /// Takes a typed Δt: a number or a fraction, with comma or point. Says what is wrong with any other.
     pub fn set_dt(&mut self, text: &str) -> Result<(), String> {
-        let dt = parse_number(text).ok_or_else(|| format!("“{text}” is no number: try 0.01 or 1/60"))?;
+        let dt = parse_number(text).ok_or_else(|| format!("“{text}” is not a number: try 0.01 or 1/60"))?;
         if !(DT_RANGE.0..=DT_RANGE.1).contains(&dt) {
             return Err(format!("Δt must lie between {:e} s and {:e} s", DT_RANGE.0, DT_RANGE.1));
         }

@@ -1,4 +1,4 @@
-//! The list of problems: what the document says, then what the simulation says of its start.
+//! The list of problems: those of the document, then those of the simulation's start.
 
 use super::{Command, Session};
 use crate::record::RunState;
@@ -7,7 +7,7 @@ use crate::scene::{Diagnostic, NodeKey, Severity};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ProblemSource {
     Document,
-    /// Found when the scene was compiled: overlaps, shapes that can't be simulated yet.
+    /// Found when the scene was compiled: overlaps, shapes that cannot be simulated yet.
     Simulation,
     /// A numerical fault while running, or an edit that the running simulation refused.
     Run,
@@ -45,7 +45,7 @@ impl Session {
             })
             .collect();
         for diagnostic in self.frame().problems.iter() {
-            // the compiler repeats errors that the document has told already, with a place
+            // the compiler repeats errors that the document has reported already, with a place
             let known = problems.iter().any(|p| p.key == diagnostic.key && p.message == diagnostic.message);
             if !known {
                 problems.push(self.placed(problem(ProblemSource::Simulation, diagnostic)));

@@ -72,7 +72,7 @@ pub const SAMPLES: &[Sample] = &[
     hard!("v-groove", "Slide in a groove", "Falls into a V and slides along it"),
     hard!("plate-edge", "Over the edge", "Slides off a plate and turns round its edge"),
     hard!("collapse", "Inelastic collapse", "Infinitely many impacts of three balls in a finite time"),
-    hard!("stack-2", "Two balls in a stack", "Bounce on each other and come to stand"),
+    hard!("stack-2", "Two balls in a stack", "Bounce on each other and come to rest"),
     hard!("stack-3", "Three balls in a stack", "Fall on each other without bouncing"),
     hard!("pyramid-4", "Pyramid of four", "One ball comes to rest on three, without bouncing"),
     hard!("pyramid-4-bouncy", "Pyramid of four, bouncing", "One ball comes to rest on three"),

@@ -44,15 +44,15 @@ impl Storage {
 
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Settings {
+pub struct EditorSettings {
     /// Newest first.
     pub recent: Vec<PathBuf>,
     /// Δt as typed last.
     pub dt: Option<String>,
 }
 
-impl Settings {
-    /// Settings that can't be read are the defaults: they hold nothing that matters.
+impl EditorSettings {
+    /// Settings that cannot be read are the defaults: they hold nothing that matters.
     pub(super) fn load(storage: &Storage) -> Self {
         let text = settings_path(storage).and_then(|path| std::fs::read_to_string(path).ok());
         text.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default()

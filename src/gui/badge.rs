@@ -86,7 +86,7 @@ fn help(frame: &Frame) -> String {
                     largest sum of momenta so far.\nOverlap: the deepest of any two bodies so far.\n"
         .to_owned();
     if let Some(total) = frame.energy.and_then(|energy| energy.total) {
-        // writing to a string can't fail
+        // writing to a string cannot fail
         let _ = writeln!(text, "Total energy: {} J.", significant(total, 9));
     }
     match frame.largest_jump {

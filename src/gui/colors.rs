@@ -4,7 +4,7 @@ use egui::Color32;
 
 use crate::view;
 
-/// Colours with a meaning. Nothing is told by them alone: a shape or a word goes with each.
+/// Colours with a meaning. Nothing is shown by colour alone: a shape or a word goes with each.
 #[derive(Clone, Copy)]
 pub struct Tones {
     pub accent: Color32,

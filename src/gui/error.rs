@@ -1,4 +1,4 @@
-//! Why the window can't be opened or a picture of it can't be taken.
+//! Why the window cannot be opened or a picture of it cannot be taken.
 
 /// Every failure of this layer.
 #[derive(Debug, thiserror::Error)]
@@ -6,7 +6,7 @@ pub enum GuiError {
     /// There is no display, or no OpenGL on it.
     #[error("{0}")]
     NoWindow(String),
-    /// A script asked for something that can't be done.
+    /// A script asked for something that cannot be done.
     #[error("{0}")]
     Script(String),
 }

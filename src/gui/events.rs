@@ -170,7 +170,7 @@ pub fn as_text(frame: &Frame) -> String {
     for row in &frame.events {
         let event = &row.event;
         let [x, y, z] = event.point.to_array();
-        // writing to a string can't fail
+        // writing to a string cannot fail
         let _ = writeln!(
             text,
             "{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{x}\t{y}\t{z}",

@@ -321,7 +321,7 @@ fn take_picture(ctx: &Context, path: PathBuf, report: Arc<Mutex<Report>>) {
         let written = write_png(&path, picture.as_raw(), [width, height]);
         if let Err(error) = written {
             let mut report = report.lock().unwrap_or_else(PoisonError::into_inner);
-            report.failure = Some(format!("can't write {}: {error}", path.display()));
+            report.failure = Some(format!("cannot write {}: {error}", path.display()));
         }
         after.send_viewport_cmd(ViewportCommand::Close);
     });

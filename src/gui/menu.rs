@@ -39,7 +39,7 @@ fn rows(ui: &mut Ui, context: &AppContext<'_>, menu: Menu, snapping: bool) {
     }
 }
 
-/// One entry: label, shortcut, and in the tooltip what it does or why it can't.
+/// One entry: label, shortcut, and in the tooltip what it does or why it cannot.
 pub fn entry(ui: &mut Ui, context: &AppContext<'_>, row: &CommandInfo) {
     marked_entry(ui, context, row, "");
 }

@@ -1,4 +1,4 @@
-//! The list of problems: where, what, what to do, and a button where there is a way out.
+//! The list of problems: where, what, what to do, and a button where there is a fix.
 
 use egui::{RichText, Sense, Ui};
 use egui_extras::{Column, TableBuilder};

@@ -32,7 +32,7 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>, pace: &Pace) {
         item(ui, "events/s", &per_s, 48.0, "Events per second of computing, smoothed");
         badge::show(ui, context);
         item(ui, "step", &numbers::duration(frame.step_wall_s), 58.0, "Computing time of the last Δt");
-        item(ui, "frame", &numbers::duration(pace.frame_s), 58.0, "Time the window took to draw itself last");
+        item(ui, "frame", &numbers::duration(pace.frame_s), 58.0, "Time that the window last took to draw");
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| version(ui, context));
     });
 }

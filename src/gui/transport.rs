@@ -155,8 +155,8 @@ fn speed_menu(ui: &mut Ui, context: &AppContext<'_>) {
         .response
         .labelled_by(label.id);
     response.on_hover_text(
-        "How fast playing is, times the scene's own time speed. Keys + and -.\n\
-         Playing takes no larger Δt when the machine can't follow; it becomes slower.",
+        "Speed of playing, as a multiple of the scene's own time speed. Keys + and -.\n\
+         Where the machine cannot keep up, playing becomes slower; Δt stays the same.",
     );
 }
 
@@ -200,7 +200,7 @@ fn state(ui: &mut Ui, context: &AppContext<'_>) {
     if context.session.needs_reset() {
         severity_icon(ui, false);
         let button = egui::Button::new(RichText::new("Reset to apply").color(tones.warning));
-        let help = "The scene was edited in a way that the running simulation can't take on: positions, \
+        let help = "The scene was edited in a way that the running simulation cannot take: positions, \
                     velocities, new moving bodies, map or settings. Reset starts the edited scene (R).";
         if ui.add(button).on_hover_text(help).clicked() {
             context.outbox.command(Command::Reset);

@@ -27,7 +27,7 @@ pub enum RunCommand {
     },
     /// To the end of the Δt that `NextEvent` opened.
     FinishStep,
-    /// Δt after Δt, at `speed` model seconds per wall second; slower when the machine can't follow.
+    /// Δt after Δt, at `speed` model seconds per wall second; slower when the machine cannot follow.
     Play {
         dt: f64,
         speed: f64,

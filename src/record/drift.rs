@@ -1,18 +1,8 @@
 //! At which event the books were off most: the energy residual is looked at after every event, and the
 //! largest change of it is remembered together with the event.
 
+use super::frame::Jump;
 use crate::sim::{Event, Simulation};
-
-/// A change of the residual.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Jump {
-    /// Number of the event; the flights since the one looked at before are part of the change.
-    pub event: u64,
-    /// s.
-    pub time: f64,
-    /// Size of the change of the energy residual (of the momentum residual where a force has no potential).
-    pub size: f64,
-}
 
 /// Adding energies up costs a look at all bodies: with more than this, not every event is looked at.
 const BODIES_PER_EVENT: u64 = 64;

@@ -4,14 +4,13 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::Jump;
 use crate::scene::{Diagnostic, NodeKey};
 use crate::sim::{ContactState, Counters, Energy, Event, Method, Momentum, Plan, Tiling};
 
 /// What a runner is doing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum RunState {
-    /// No simulation: nothing loaded, or the scene can't be simulated.
+    /// No simulation: nothing loaded, or the scene cannot be simulated.
     #[default]
     Empty,
     Paused,
@@ -47,6 +46,17 @@ pub struct EventRow {
     pub b_label: String,
     /// Number of the Δt (1 for the first) in which it happened.
     pub dt_index: u64,
+}
+
+/// A change of the energy residual.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Jump {
+    /// Number of the event; the flights since the one looked at before are part of the change.
+    pub event: u64,
+    /// s.
+    pub time: f64,
+    /// Size of the change of the energy residual (of the momentum residual where a force has no potential).
+    pub size: f64,
 }
 
 /// A consistent picture, never changed after it is published.
@@ -89,7 +99,7 @@ pub struct Frame {
     pub real_speed: f64,
     /// Whether there is something to step back to.
     pub can_step_back: bool,
-    /// Why the scene can't be simulated, or geometric warnings of the start.
+    /// Why the scene cannot be simulated, or geometric warnings of the start.
     pub problems: Arc<Vec<Diagnostic>>,
     /// The numerical fault, or why the last edit was refused.
     pub fault: Option<String>,

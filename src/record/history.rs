@@ -1,7 +1,7 @@
 //! The past of a run: snapshots, ticks, events and edits, enough to go back to any of them and to come
-//! out with the same bits. Between snapshots it simulates again.
+//! out with the same bits.
 
-use super::recorder::{Rows, Run, StepGrid};
+use super::grid::StepGrid;
 use crate::sim::{Event, SimEdit, Simulation, Snapshot};
 
 /// Memory that snapshots may take, bytes. Beyond it every second one is dropped, so that the intervals to
@@ -14,34 +14,35 @@ const LONGEST_PAST: usize = 1_000_000;
 /// Segments to simulate again at most between two snapshots, for a scene of few bodies.
 const SEGMENTS_APART: u64 = 500;
 
-/// A point of a run: after so many events, at a time.
+/// A moment of a run: after so many events, at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Point {
-    event: u64,
-    time: f64,
+pub(super) struct Moment {
+    pub(super) event: u64,
+    /// s.
+    pub(super) time: f64,
 }
 
 #[derive(Debug)]
-struct Keyframe {
-    at: Point,
-    snapshot: Snapshot,
-    grid: StepGrid,
+pub(super) struct Keyframe {
+    pub(super) at: Moment,
+    pub(super) snapshot: Snapshot,
+    pub(super) grid: StepGrid,
     segments: u64,
     /// Recorded edits that it contains.
     edits: usize,
 }
 
-#[derive(Debug)]
-struct RecordedEdit {
-    at: Point,
-    edit: SimEdit,
+#[derive(Clone, Debug)]
+pub(super) struct RecordedEdit {
+    pub(super) at: Moment,
+    pub(super) edit: SimEdit,
 }
 
 /// End of a Δt, with the grid as it stands there.
 #[derive(Clone, Copy, Debug)]
-struct Tick {
-    at: Point,
-    grid: StepGrid,
+pub(super) struct Tick {
+    pub(super) at: Moment,
+    pub(super) grid: StepGrid,
 }
 
 #[derive(Debug)]
@@ -60,7 +61,7 @@ pub(super) struct History {
 
 impl History {
     pub(super) fn new(simulation: &Simulation, grid: StepGrid) -> Self {
-        let at = Point { event: 0, time: simulation.time() };
+        let at = Moment { event: 0, time: simulation.time() };
         Self {
             keyframes: vec![Keyframe { at, snapshot: simulation.snapshot(), grid, segments: 0, edits: 0 }],
             ticks: vec![Tick { at, grid }],
@@ -86,7 +87,7 @@ impl History {
     }
 
     pub(super) fn note_tick(&mut self, simulation: &Simulation, grid: StepGrid, event: u64) {
-        let at = Point { event, time: simulation.time() };
+        let at = Moment { event, time: simulation.time() };
         let place = self.ticks.partition_point(|tick| tick.at.time < at.time);
         match self.ticks.get_mut(place) {
             Some(again) if again.at.time == at.time => *again = Tick { at, grid },
@@ -103,14 +104,14 @@ impl History {
     }
 
     /// Time of the first tick after `now`.
-    fn next_tick(&self, now: f64) -> Option<f64> {
+    pub(super) fn next_tick(&self, now: f64) -> Option<f64> {
         self.ticks.get(self.ticks.partition_point(|tick| tick.at.time <= now)).map(|tick| tick.at.time)
     }
 
     /// Forgets what another Δt than before, from now to `end`, makes untrue: the ticks to come, and where
     /// the method depends on Δt the whole future. Gives the number of edits in it.
     pub(super) fn divide_time_anew(&mut self, simulation: &Simulation, event: u64, end: f64) -> usize {
-        let at = Point { event, time: simulation.time() };
+        let at = Moment { event, time: simulation.time() };
         if self.next_tick(at.time).is_none_or(|next| next == end) {
             return 0;
         }
@@ -125,21 +126,21 @@ impl History {
 
     /// Records an edit made now. What was recorded for later is another future and is forgotten.
     pub(super) fn note_edit(&mut self, simulation: &Simulation, grid: StepGrid, event: u64, edit: &SimEdit) {
-        let at = Point { event, time: simulation.time() };
+        let at = Moment { event, time: simulation.time() };
         self.forget_after(at);
         self.edits.push(RecordedEdit { at, edit: edit.clone() });
         self.applied = self.edits.len();
         self.keep(simulation, grid, at);
     }
 
-    fn forget_after(&mut self, at: Point) {
+    fn forget_after(&mut self, at: Moment) {
         self.keyframes.retain(|key| key.at.time <= at.time && key.at.event <= at.event);
         self.ticks.retain(|tick| tick.at.time <= at.time && tick.at.event <= at.event);
         self.edits.truncate(self.applied);
         self.event_times.truncate((at.event + 1).saturating_sub(self.first_event) as usize);
     }
 
-    fn keep(&mut self, simulation: &Simulation, grid: StepGrid, at: Point) {
+    fn keep(&mut self, simulation: &Simulation, grid: StepGrid, at: Moment) {
         let segments = simulation.counters().segments;
         self.keyframes.push(Keyframe {
             at,
@@ -159,127 +160,40 @@ impl History {
             });
         }
     }
-}
 
-impl Run {
-    /// Back to the beginning of the open Δt, or else of the last one.
-    pub(super) fn step_back(&mut self) {
-        let now = self.simulation.time();
-        let Some(index) = self.history.ticks.iter().rposition(|tick| tick.at.time < now) else { return };
-        let tick = self.history.ticks[index];
-        let before = index.checked_sub(1).map(|index| self.history.ticks[index]);
-        self.replay(before.unwrap_or(tick), |run| {
-            if let Some(before) = before {
-                run.grid = tick.grid.reopened(before.at.time, tick.at.time);
-            }
-            run.run_to(tick.at);
-            run.grid = tick.grid;
-        });
+    /// The last tick before `now`, and the one before that.
+    pub(super) fn last_ticks(&self, now: f64) -> Option<(Tick, Option<Tick>)> {
+        let index = self.ticks.iter().rposition(|tick| tick.at.time < now)?;
+        Some((self.ticks[index], index.checked_sub(1).map(|before| self.ticks[before])))
     }
 
-    /// Back to the event before the one now looked at; the Δt around it is open then.
-    pub(super) fn event_back(&mut self) {
-        let history = &self.history;
-        // After the end of a Δt the last event is itself the one before.
-        let at_event =
-            history.time_of(self.last_event) == Some(self.simulation.time()) && self.grid.open.is_some();
-        let target = if at_event { self.last_event.saturating_sub(1) } else { self.last_event };
-        if self.history.time_of(target).is_none() {
-            self.message = Some("there is no recorded event before this one".into());
-            return;
+    /// The ticks before and after a recorded event.
+    pub(super) fn ticks_around(&self, event: Moment) -> Option<(Tick, Option<Tick>)> {
+        let is_before = |tick: &Tick| tick.at.event < event.event && tick.at.time <= event.time;
+        let index = self.ticks.iter().rposition(is_before)?;
+        Some((self.ticks[index], self.ticks.get(index + 1).copied()))
+    }
+
+    /// The snapshot to start from in order to reach `at`: what was recorded after it is ahead again.
+    pub(super) fn rewind(&mut self, at: Moment) -> Option<&Keyframe> {
+        let usable = |key: &&Keyframe| key.at.time <= at.time && key.at.event <= at.event;
+        let key = self.keyframes.iter().rev().find(usable)?;
+        self.applied = key.edits;
+        Some(key)
+    }
+
+    /// The next recorded edit, if it was made after this event and not after `until`; it counts as applied.
+    pub(super) fn take_due_edit(&mut self, last_event: u64, until: f64) -> Option<RecordedEdit> {
+        let next = self.edits.get(self.applied)?;
+        if next.at.event != last_event || next.at.time > until {
+            return None;
         }
-        self.back_to_event(target);
+        self.applied += 1;
+        Some(next.clone())
     }
 
-    /// Back to an event that was reached before; the Δt around it is open then.
-    pub(super) fn back_to_event(&mut self, target: u64) {
-        let history = &self.history;
-        let Some(time) = history.time_of(target) else { return };
-        let Some(index) =
-            history.ticks.iter().rposition(|tick| tick.at.event < target && tick.at.time <= time)
-        else {
-            return;
-        };
-        let (tick, after) = (history.ticks[index], history.ticks.get(index + 1).copied());
-        let around = match after {
-            Some(after) => after.grid.reopened(tick.at.time, after.at.time),
-            None => self.grid,
-        };
-        self.replay(tick, |run| {
-            run.grid = around;
-            run.run_to(Point { event: target, time });
-        });
-    }
-
-    /// Puts the run back to where it was at `from` and lets `then` go on from there, with the table filled
-    /// by what it passes.
-    fn replay(&mut self, from: Tick, then: impl FnOnce(&mut Self)) {
-        let keyframes = &self.history.keyframes;
-        let usable = |key: &Keyframe| key.at.time <= from.at.time && key.at.event <= from.at.event;
-        let Some(key) = keyframes.iter().rev().find(|key| usable(key)) else { return };
-        self.simulation.restore(&key.snapshot);
-        self.grid = key.grid;
-        self.last_event = key.at.event;
-        self.drift.rewind(&self.simulation, key.at.event);
-        self.history.applied = key.edits;
-        self.run_to(from.at);
-        self.rows = Rows::default();
-        then(self);
-        self.faulted = false;
-        self.message = None;
-    }
-
-    /// Simulates again up to a point, Δt by Δt as before, with the edits on the way applied at their stamps.
-    fn run_to(&mut self, target: Point) {
-        loop {
-            let now = self.simulation.time();
-            let open = self.grid.open.map(|(_, end)| end).filter(|end| *end > now);
-            let end = self.history.next_tick(now).or(open).unwrap_or(target.time);
-            self.begin_until(end, target.time);
-            if self.last_event >= target.event && self.simulation.time() >= target.time {
-                return;
-            }
-            match self.simulation.next_event() {
-                Ok(Some(event)) => self.note(&event),
-                Ok(None) if self.simulation.time() < target.time => {}
-                Ok(None) | Err(_) => return,
-            }
-        }
-    }
-
-    /// Begins the Δt that ends at `end`, or goes on in it, up to `until`. Recorded edits that are due are
-    /// applied first.
-    pub(super) fn begin_until(&mut self, end: f64, until: f64) {
-        let until = until.min(end);
-        // A method that steps by Δt must know its end before it is asked to stop inside it.
-        self.simulation.begin(end);
-        self.apply_due_edits(until);
-        // An edit ends the Δt; the rest of it is begun anew.
-        self.simulation.begin(end);
-        self.simulation.begin(until);
-    }
-
-    /// Applies the recorded edits whose turn it is, up to a time, each exactly where it was made.
-    fn apply_due_edits(&mut self, until: f64) {
-        while let Some(next) = self.history.edits.get(self.history.applied) {
-            if next.at.event != self.last_event || next.at.time > until {
-                return;
-            }
-            let edit = next.edit.clone();
-            if next.at.time > self.simulation.time() {
-                self.simulation.begin(next.at.time);
-                // Between its event and its stamp there is none.
-                let _ = self.simulation.finish(&mut |_, _| {});
-            }
-            self.history.applied += 1;
-            // It was accepted in this very state before.
-            let _ = self.simulation.apply(&edit);
-        }
-    }
-}
-
-impl History {
-    fn time_of(&self, event: u64) -> Option<f64> {
+    /// When an event happened; `None` for one that is not recorded.
+    pub(super) fn time_of(&self, event: u64) -> Option<f64> {
         self.event_times.get(usize::try_from(event.checked_sub(self.first_event)?).ok()?).copied()
     }
 }

@@ -3,13 +3,13 @@
 use std::sync::Arc;
 
 use super::publish::{Pace, frame_of};
-use super::recorder::Recorder;
+use super::recorder::RunRecorder;
 use super::{Frame, RunCommand, RunState, Runner};
 
 /// Runs on the caller's thread. While it plays, [`Runner::tick`] is its clock.
 #[derive(Debug, Default)]
 pub struct InlineRunner {
-    recorder: Recorder,
+    recorder: RunRecorder,
     frame: Arc<Frame>,
 }
 

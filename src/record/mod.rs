@@ -3,17 +3,19 @@
 mod command;
 mod drift;
 mod frame;
+mod grid;
 mod history;
 mod inline;
 mod publish;
 mod recorder;
+mod replay;
+mod run;
 mod thread;
 
 use std::sync::Arc;
 
 pub use command::RunCommand;
-pub use drift::Jump;
-pub use frame::{BodyFrame, EventRow, Frame, RunState};
+pub use frame::{BodyFrame, EventRow, Frame, Jump, RunState};
 pub use inline::InlineRunner;
 pub use thread::ThreadRunner;
 
@@ -26,6 +28,6 @@ pub trait Runner {
     /// The newest picture of the simulation.
     fn frame(&self) -> Arc<Frame>;
 
-    /// Tells an inline runner that `wall_s` seconds have passed while it plays. A thread keeps its own time.
+    /// Lets an inline runner know that `wall_s` seconds have passed while it plays. A thread keeps its own time.
     fn tick(&mut self, wall_s: f64);
 }

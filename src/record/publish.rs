@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use super::recorder::{Recorder, Run};
+use super::recorder::RunRecorder;
+use super::run::Run;
 use super::{BodyFrame, Frame};
 use crate::sim::{Plan, Simulation};
 
@@ -17,7 +18,7 @@ pub(super) struct Pace {
     pub(super) real_speed: f64,
 }
 
-pub(super) fn frame_of(recorder: &mut Recorder, revision: u64, pace: Pace) -> Frame {
+pub(super) fn frame_of(recorder: &mut RunRecorder, revision: u64, pace: Pace) -> Frame {
     let base = Frame {
         revision,
         state: recorder.state(),

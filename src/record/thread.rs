@@ -6,7 +6,7 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use super::publish::{Pace, frame_of};
-use super::recorder::Recorder;
+use super::recorder::RunRecorder;
 use super::{Frame, RunCommand, RunState, Runner};
 
 /// Events between two looks at the clock and at the commands.
@@ -63,7 +63,7 @@ struct Worker {
     commands: Receiver<RunCommand>,
     shared: Arc<Mutex<Arc<Frame>>>,
     on_frame: Box<dyn Fn() + Send>,
-    recorder: Recorder,
+    recorder: RunRecorder,
     revision: u64,
     clock: Clock,
 }
@@ -95,7 +95,7 @@ impl Worker {
             working: Duration::ZERO,
             pace: Pace::default(),
         };
-        Self { commands, shared, on_frame, recorder: Recorder::default(), revision: 0, clock }
+        Self { commands, shared, on_frame, recorder: RunRecorder::default(), revision: 0, clock }
     }
 
     fn run(mut self) {

@@ -1,6 +1,6 @@
 //! What a run is judged by: one table for the diagrams, the text table and the CSV file.
 
-use super::Point;
+use super::RunFigures;
 
 /// One measure of a run.
 pub struct Axis {
@@ -15,7 +15,7 @@ pub struct Axis {
     pub meaning: &'static str,
     /// Whether it has a diagram of its own, over the wall time.
     pub is_drawn: bool,
-    pub get: fn(&Point) -> Option<f64>,
+    pub get: fn(&RunFigures) -> Option<f64>,
 }
 
 /// All measures in the order of the columns.

@@ -1,4 +1,4 @@
-//! What is put on trial: a method with its Δt or its tolerance.
+//! What is compared: a method with its Δt or its tolerance.
 
 use super::text::{seconds, short};
 use crate::scene::Scene;

@@ -8,7 +8,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use std::ops::Range;
 
 use super::scale::{Scale, series_of};
-use super::{AXES, Axis, Report, look_of, seconds, short};
+use super::{AXES, Axis, StudyReport, look_of, seconds, short};
 use crate::sim::Method;
 
 /// Width and height, px.
@@ -22,14 +22,14 @@ const FAINT: RGBColor = RGBColor(225, 225, 225);
 
 /// The picture could not be drawn.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the diagram can't be drawn: {0}")]
+#[error("the diagram cannot be drawn: {0}")]
 pub struct ChartError(String);
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
 type Drawn = Result<(), DrawingAreaErrorKind<std::io::Error>>;
 
 /// Draws all diagrams of a report.
-pub fn svg(report: &Report) -> Result<String, ChartError> {
+pub fn svg(report: &StudyReport) -> Result<String, ChartError> {
     let mut text = String::new();
     draw(report, &mut text).map_err(|error| ChartError(error.to_string()))?;
     // What a screen reader says, and what a browser shows on its tab.
@@ -46,7 +46,7 @@ fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
-fn draw(report: &Report, text: &mut String) -> Drawn {
+fn draw(report: &StudyReport, text: &mut String) -> Drawn {
     let root = SVGBackend::with_string(text, SIZE).into_drawing_area();
     root.fill(&WHITE)?;
     let (top, rest) = root.split_vertically(TITLE_HEIGHT);
@@ -86,7 +86,7 @@ impl Ranged for Decades {
     }
 }
 
-fn heading(area: &Area, report: &Report) -> Drawn {
+fn heading(area: &Area, report: &StudyReport) -> Drawn {
     let title = (FONT, 30).into_font().style(FontStyle::Bold).color(&INK);
     area.draw_text(&report.title(), &title, (24, 14))?;
     let small = (FONT, 19).into_font().color(&INK);
@@ -108,7 +108,7 @@ fn wrapped(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
-fn diagram(area: &Area, report: &Report, axis: &Axis) -> Drawn {
+fn diagram(area: &Area, report: &StudyReport, axis: &Axis) -> Drawn {
     let caption = (FONT, 21).into_font().style(FontStyle::Bold).color(&INK);
     let unit = if axis.unit.is_empty() { String::new() } else { format!(" [{}]", axis.unit) };
     let heading = format!("{}{unit}", axis.title);
@@ -149,7 +149,7 @@ fn diagram(area: &Area, report: &Report, axis: &Axis) -> Drawn {
         for place in &at {
             chart.plotting_area().draw(&(EmptyElement::at(*place) + marker(method)))?;
         }
-        // The ends of a curve tell which way it runs.
+        // The ends of a curve show which way it runs.
         for nth in ends(series.len()) {
             let (vertical, down) = label_side(method);
             let (side, right) = if nth == 0 && at.len() > 1 { (HPos::Right, -7) } else { (HPos::Left, 7) };
@@ -190,7 +190,7 @@ fn marker(method: Method) -> Polygon<(i32, i32)> {
     Polygon::new(corners.map(|[x, y]| (place(*x), -place(*y))).collect::<Vec<_>>(), color(method).filled())
 }
 
-fn legend(area: &Area, report: &Report) -> Drawn {
+fn legend(area: &Area, report: &StudyReport) -> Drawn {
     let mut x = 70;
     let text = (FONT, 19).into_font().color(&INK).pos(Pos::new(HPos::Left, VPos::Center));
     for method in Method::ALL.into_iter().filter(|m| report.points.iter().any(|p| p.method == *m)) {
@@ -207,7 +207,7 @@ fn legend(area: &Area, report: &Report) -> Drawn {
 }
 
 /// What runs along a method's curve.
-fn axis_of(report: &Report, method: Method) -> String {
+fn axis_of(report: &StudyReport, method: Method) -> String {
     let of = || report.points.iter().filter(|point| point.method == method);
     let span = |values: Vec<f64>, text: fn(f64) -> String| {
         let (most, least) = values.iter().fold((0.0_f64, f64::INFINITY), |(a, b), v| (a.max(*v), b.min(*v)));

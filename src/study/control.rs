@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// What a study is doing.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Progress {
+pub struct StudyProgress {
     /// Share of the work done, 0 to 1; a guess.
     pub part: f64,
     /// One line for a person.
@@ -14,7 +14,7 @@ pub struct Progress {
 /// The line to whoever started a study.
 pub struct Control<'a> {
     cancel: &'a AtomicBool,
-    report: &'a mut dyn FnMut(&Progress),
+    report: &'a mut dyn FnMut(&StudyProgress),
     /// The stage that is going on: its name, where it starts and which share of the whole it is.
     stage: (String, f64, f64),
     /// Sums of shares round; a bar must not go back for that.
@@ -23,7 +23,7 @@ pub struct Control<'a> {
 
 impl<'a> Control<'a> {
     /// `cancel` ends the study soon after it becomes true; `report` is called often, from the study's thread.
-    pub fn new(cancel: &'a AtomicBool, report: &'a mut dyn FnMut(&Progress)) -> Self {
+    pub fn new(cancel: &'a AtomicBool, report: &'a mut dyn FnMut(&StudyProgress)) -> Self {
         Self { cancel, report, stage: (String::new(), 0.0, 1.0), shown: 0.0 }
     }
 
@@ -41,6 +41,6 @@ impl<'a> Control<'a> {
     pub(super) fn show(&mut self, part: f64) {
         let (what, start, share) = &self.stage;
         self.shown = (start + share * part.clamp(0.0, 1.0)).clamp(self.shown, 1.0);
-        (self.report)(&Progress { part: self.shown, what: what.clone() });
+        (self.report)(&StudyProgress { part: self.shown, what: what.clone() });
     }
 }

@@ -2,14 +2,14 @@
 
 use std::fmt::Write as _;
 
-use super::{AXES, Point, Report, Stop};
+use super::{AXES, RunFigures, Stop, StudyReport};
 
 /// The columns that [`AXES`] does not have.
 const MORE: &str =
     "wall_s_per_s_min,wall_s_per_s_max,impacts,missed,wrong,first_difference_s,reached_s,stopped,horizon_s";
 
 /// The whole file, lines ended by a line feed, a decimal point, comma separated.
-pub fn csv(report: &Report) -> String {
+pub fn csv(report: &StudyReport) -> String {
     let mut text = "method,dt_s,tolerance".to_owned();
     for axis in AXES {
         text += ",";
@@ -22,7 +22,7 @@ pub fn csv(report: &Report) -> String {
     text
 }
 
-fn row(text: &mut String, point: &Point, horizon: f64) {
+fn row(text: &mut String, point: &RunFigures, horizon: f64) {
     let number = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:e}"));
     let count = |value: Option<u64>| value.map_or(String::new(), |value| value.to_string());
     let mut cells = vec![point.method.name().to_owned(), number(point.dt), number(point.tolerance)];

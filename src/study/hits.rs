@@ -2,7 +2,7 @@
 
 /// Who met when.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hit {
+pub struct PairImpact {
     /// s.
     pub time: f64,
     /// Indices in the scene's bodies, in any order.
@@ -25,7 +25,7 @@ const SAME_INSTANT: f64 = 1e-10;
 
 /// Matches, pair by pair in order of time, impacts at most `window` apart. Those after `until` may be
 /// partners but are not counted themselves.
-pub fn compare(run: &[Hit], reference: &[Hit], until: f64, window: f64) -> Differences {
+pub fn compare(run: &[PairImpact], reference: &[PairImpact], until: f64, window: f64) -> Differences {
     let (run, reference) = (by_pair(run), by_pair(reference));
     let mut differences = Differences::default();
     let mut count = |time: f64, counter: fn(&mut Differences) -> &mut u64| {
@@ -63,9 +63,10 @@ pub fn compare(run: &[Hit], reference: &[Hit], until: f64, window: f64) -> Diffe
     }
 }
 
-fn by_pair(hits: &[Hit]) -> Vec<Hit> {
+fn by_pair(hits: &[PairImpact]) -> Vec<PairImpact> {
     let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
-    let mut hits: Vec<Hit> = hits.iter().map(|hit| Hit { bodies: sorted(hit.bodies), ..*hit }).collect();
+    let mut hits: Vec<PairImpact> =
+        hits.iter().map(|hit| PairImpact { bodies: sorted(hit.bodies), ..*hit }).collect();
     hits.sort_by(|left, right| left.bodies.cmp(&right.bodies).then(left.time.total_cmp(&right.time)));
     hits.dedup_by(|next, kept| next.bodies == kept.bodies && next.time - kept.time <= SAME_INSTANT);
     hits

@@ -1,4 +1,4 @@
-//! One run, looked at from all sides; its time is taken apart from this.
+//! One run, looked at from all sides; its timing is separate.
 
 use std::time::{Duration, Instant};
 
@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::hits::compare;
 use super::overlap::OverlapMonitor;
-use super::{Candidate, Control, Hit, Point, Settings, Stop, Truth};
+use super::{Candidate, Control, PairImpact, RunFigures, Stop, StudySettings, Truth};
 use crate::scene::Scene;
 use crate::sim::{BodyRef, Event, EventKind, Progress, Simulation};
 
@@ -22,7 +22,7 @@ pub struct Limits {
 }
 
 impl Limits {
-    pub fn of(settings: &Settings) -> Self {
+    pub fn of(settings: &StudySettings) -> Self {
         Self {
             until: settings.until,
             sample_dt: settings.sample_dt(),
@@ -47,20 +47,23 @@ impl Limits {
 /// Predictions carried out between two looks at the clock.
 pub(super) const PREDICTIONS: u32 = 256;
 
+/// So many tests of a pair take about a second.
+const TESTS: u64 = 30_000_000;
+
 /// Runs one candidate and compares it. `None` when cancelled. `scene` is what it simulates, so that a test
-/// can put a wrong law on trial.
+/// can measure a wrong law.
 pub fn measure(
     candidate: &Candidate,
     scene: &Scene,
     truth: &Truth,
     limits: &Limits,
     control: &mut Control,
-) -> Option<Point> {
+) -> Option<RunFigures> {
     let sim = match candidate.start(scene) {
         Ok(sim) => sim,
-        Err(error) => return Some(Trial::blank(candidate, Some(Stop::Fault(error.to_string())))),
+        Err(error) => return Some(ObservedRun::blank(candidate, Some(Stop::Fault(error.to_string())))),
     };
-    let mut trial = Trial::new(candidate, scene, sim, truth, limits);
+    let mut trial = ObservedRun::new(candidate, scene, sim, truth, limits);
     trial.look();
     let (dt, every) = candidate.stride(limits.sample_dt);
     let deadline = Instant::now() + Duration::from_secs_f64(limits.run_limit.min(1e9));
@@ -75,7 +78,7 @@ pub fn measure(
         if step % every == 0 || step == steps {
             trial.sample();
             control.show(step as f64 / steps as f64);
-        } else if trial.monitor.may_look_often() {
+        } else if trial.may_look_often() {
             trial.look();
         }
     }
@@ -83,22 +86,24 @@ pub fn measure(
 }
 
 /// A run that is being looked at.
-struct Trial<'a> {
+struct ObservedRun<'a> {
     sim: Simulation,
     truth: &'a Truth,
     limits: &'a Limits,
     monitor: OverlapMonitor,
+    /// Tests of a pair that may still be made at events.
+    tests_left: u64,
     /// The dynamic bodies in the order of the file.
     bodies: Vec<BodyRef>,
     /// Index in the scene of dynamic and of static bodies.
     dynamic: Vec<usize>,
     fixed: Vec<usize>,
-    hits: Vec<Hit>,
+    hits: Vec<PairImpact>,
     has_parted: bool,
-    point: Point,
+    point: RunFigures,
 }
 
-impl<'a> Trial<'a> {
+impl<'a> ObservedRun<'a> {
     fn new(
         candidate: &Candidate,
         scene: &Scene,
@@ -115,7 +120,8 @@ impl<'a> Trial<'a> {
         let fixed = (0..sim.static_count() as u32).map(|k| index(BodyRef::Static(k))).collect();
         bodies.sort_by_key(|&body| index(body));
         Self {
-            monitor: OverlapMonitor::new(scene),
+            monitor: OverlapMonitor::in_file_order(scene),
+            tests_left: TESTS,
             bodies,
             dynamic,
             fixed,
@@ -128,8 +134,8 @@ impl<'a> Trial<'a> {
         }
     }
 
-    fn blank(candidate: &Candidate, stopped: Option<Stop>) -> Point {
-        Point {
+    fn blank(candidate: &Candidate, stopped: Option<Stop>) -> RunFigures {
+        RunFigures {
             method: candidate.method,
             dt: candidate.dt,
             tolerance: candidate.tolerance,
@@ -172,10 +178,12 @@ impl<'a> Trial<'a> {
     fn event(&mut self, event: &Event) {
         if let (EventKind::Impact | EventKind::Collapse, Some(b)) = (event.kind, event.b) {
             self.point.impacts += 1;
-            self.hits
-                .push(Hit { time: event.time, bodies: [self.scene_index(event.a), self.scene_index(b)] });
+            self.hits.push(PairImpact {
+                time: event.time,
+                bodies: [self.scene_index(event.a), self.scene_index(b)],
+            });
         }
-        if self.monitor.may_look_often() {
+        if self.may_look_often() {
             self.look();
         }
     }
@@ -186,6 +194,12 @@ impl<'a> Trial<'a> {
             BodyRef::Static(k) => self.fixed.get(k as usize),
         };
         found.copied().unwrap_or(usize::MAX)
+    }
+
+    /// Whether there is time left to look at every event too, not at samples alone.
+    fn may_look_often(&mut self) -> bool {
+        self.tests_left = self.tests_left.saturating_sub(self.monitor.tests());
+        self.tests_left > 0
     }
 
     /// Looks for overlaps.
@@ -225,7 +239,7 @@ impl<'a> Trial<'a> {
         }
     }
 
-    fn finished(mut self) -> Point {
+    fn finished(mut self) -> RunFigures {
         let horizon = self.truth.horizon.time.min(self.point.reached);
         if horizon > 0.0 {
             let window = self.limits.event_window + self.point.dt.unwrap_or(0.0);

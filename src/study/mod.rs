@@ -2,6 +2,7 @@
 
 // The hard cases with their known answers.
 pub mod cases;
+pub mod closed_form;
 
 // What a study is asked, and what it answers.
 mod axes;
@@ -14,12 +15,13 @@ mod control;
 mod hits;
 mod measure;
 mod overlap;
+mod random;
 pub mod reference;
 mod run;
 mod timing;
 mod truth;
 
-// How it is told.
+// How it is shown.
 mod chart;
 mod csv;
 mod scale;
@@ -29,14 +31,16 @@ mod text;
 pub use axes::{AXES, Axis};
 pub use candidate::{Candidate, Marker, look_of};
 pub use chart::{ChartError, svg};
-pub use control::{Control, Progress};
+pub use control::{Control, StudyProgress};
 pub use csv::csv;
-pub use hits::{Differences, Hit, compare};
+pub use hits::{Differences, PairImpact, compare};
 pub use measure::{Limits, measure};
-pub use report::{Horizon, HorizonCause, Point, Report, Stop};
+pub use overlap::OverlapMonitor;
+pub use random::Random;
+pub use report::{Horizon, HorizonCause, RunFigures, Stop, StudyReport};
 pub use run::{StudyError, run};
 pub use scale::{CurvePoint, Scale, series_of};
-pub use settings::{KNOBS, Knob, Settings, SettingsError};
+pub use settings::{KNOBS, Knob, SettingsError, StudySettings};
 pub use table::{Head, row_cells, row_heads, table};
 pub use text::{seconds, short};
 pub use truth::{Truth, TruthSample};

@@ -2,12 +2,12 @@
 
 use serde::{Serialize, Serializer};
 
-use super::Settings;
+use super::StudySettings;
 use crate::sim::Method;
 
 /// The answer of a study.
 #[derive(Clone, Debug, Serialize)]
-pub struct Report {
+pub struct StudyReport {
     /// What to call the scene; empty when it has no name.
     pub scene: String,
     /// Model time asked for, s.
@@ -18,7 +18,7 @@ pub struct Report {
     pub motion: String,
     pub horizon: Horizon,
     /// In the order methods, Δt from coarse to fine, tolerance from coarse to fine.
-    pub points: Vec<Point>,
+    pub points: Vec<RunFigures>,
     /// Ended before everything was done: what is there stands.
     pub cancelled: bool,
     /// The knobs that the figures depend on.
@@ -59,7 +59,7 @@ pub enum HorizonCause {
 
 /// One run: what it costs and how wrong it is.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Point {
+pub struct RunFigures {
     #[serde(serialize_with = "name_of")]
     pub method: Method,
     /// s; `None` where the result does not depend on it.
@@ -110,8 +110,8 @@ fn name_of<S: Serializer>(method: &Method, serializer: S) -> Result<S::Ok, S::Er
     serializer.serialize_str(method.name())
 }
 
-impl Report {
-    pub(super) fn new(scene: String, settings: &Settings) -> Self {
+impl StudyReport {
+    pub(super) fn new(scene: String, settings: &StudySettings) -> Self {
         Self {
             scene,
             until: settings.until,
@@ -154,8 +154,8 @@ impl Report {
                  the reference's own error estimate exceeds {bound} m, so only invariants count."
             ),
             HorizonCause::ReferenceLimit => format!(
-                "Compared with the independent reference up to {until} ({checked}), as far as it came in its \
-                 time; beyond that only invariants count."
+                "Compared with the independent reference up to {until} ({checked}), as far as it got in its \
+                 time limit; beyond that only invariants count."
             ),
             HorizonCause::Unknown(what) => format!(
                 "Compared with the independent reference up to {until} ({checked}): {what}. Beyond that only \

@@ -1,7 +1,9 @@
 //! A whole study: the reference, every run compared with it, then every run timed.
 
 use super::timing::{starting, summarise, time_run};
-use super::{Candidate, Control, HorizonCause, Limits, Report, Settings, SettingsError, Truth, measure};
+use super::{
+    Candidate, Control, HorizonCause, Limits, SettingsError, StudyReport, StudySettings, Truth, measure,
+};
 use crate::scene::Scene;
 use crate::sim::{CompileError, Method, Simulation};
 
@@ -22,12 +24,12 @@ const COMPARISONS: f64 = 0.3;
 pub fn run(
     scene: &Scene,
     name: &str,
-    settings: &Settings,
+    settings: &StudySettings,
     control: &mut Control,
-) -> Result<Report, StudyError> {
+) -> Result<StudyReport, StudyError> {
     settings.check()?;
     let compiled = Simulation::new(scene)?;
-    let mut report = Report::new(name.to_owned(), settings);
+    let mut report = StudyReport::new(name.to_owned(), settings);
     report.dynamic_bodies = compiled.plan().dynamic_bodies;
     report.static_bodies = compiled.plan().static_bodies;
     report.motion = compiled.plan().motion.to_owned();
@@ -62,9 +64,9 @@ pub fn run(
 fn time_all(
     candidates: &[Candidate],
     scene: &Scene,
-    settings: &Settings,
+    settings: &StudySettings,
     limits: &Limits,
-    report: &mut Report,
+    report: &mut StudyReport,
     control: &mut Control,
 ) -> bool {
     let mut timings = vec![Vec::new(); report.points.len()];
@@ -93,7 +95,7 @@ fn time_all(
 }
 
 /// Every run of a study, in the order of the report.
-fn candidates(compiled: &Simulation, scene: &Scene, settings: &Settings) -> Vec<Candidate> {
+fn candidates(compiled: &Simulation, scene: &Scene, settings: &StudySettings) -> Vec<Candidate> {
     let mut candidates = Vec::new();
     let mut dts = settings.dts.clone();
     dts.sort_by(|left, right| right.total_cmp(left));
@@ -114,7 +116,7 @@ fn candidates(compiled: &Simulation, scene: &Scene, settings: &Settings) -> Vec<
 }
 
 /// The scene's own tolerance and those asked for, where they matter; coarse first.
-fn tolerances(compiled: &Simulation, scene: &Scene, settings: &Settings) -> Vec<Option<f64>> {
+fn tolerances(compiled: &Simulation, scene: &Scene, settings: &StudySettings) -> Vec<Option<f64>> {
     if compiled.plan().motion == "ballistic" || settings.tolerances.is_empty() {
         return vec![None];
     }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{Axis, Report, seconds, short};
+use super::{Axis, StudyReport, seconds, short};
 use crate::sim::Method;
 
 /// A logarithmic scale over whole decades. Places on it are decimal logarithms.
@@ -113,7 +113,7 @@ pub struct CurvePoint {
 }
 
 /// The curve of one method on one diagram.
-pub fn series_of(report: &Report, method: Method, axis: &Axis) -> Vec<CurvePoint> {
+pub fn series_of(report: &StudyReport, method: Method, axis: &Axis) -> Vec<CurvePoint> {
     let of = report.points.iter().filter(|point| point.method == method);
     of.filter_map(|point| {
         let (wall, error) = (point.wall_per_s?, (axis.get)(point)?);

@@ -5,7 +5,7 @@ use crate::sim::Method;
 
 /// The knobs of a study.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Settings {
+pub struct StudySettings {
     /// Model time up to which everything runs, s.
     pub until: f64,
     /// How to step.
@@ -30,7 +30,7 @@ pub struct Settings {
     pub run_limit: f64,
 }
 
-impl Default for Settings {
+impl Default for StudySettings {
     fn default() -> Self {
         Self {
             until: 10.0,
@@ -107,7 +107,7 @@ pub const KNOBS: &[Knob] = &[
         name: "trusted-error",
         label: "Trusted error",
         unit: "m",
-        reason: "Where the reference's own error estimate reaches this, comparing positions and events ends: \
+        reason: "Where the reference's own error estimate reaches this, the comparison of positions and events ends: \
                  the horizon. 1e-6 m is far below what can be seen, and far above rounding.",
     },
     Knob {
@@ -122,7 +122,7 @@ pub const KNOBS: &[Knob] = &[
         label: "Event window",
         unit: "s",
         reason: "An event counts as found when one of the same two bodies comes within this (and one Δt) of \
-                 it. 1e-3 s tells an impact that is late from one that is missing.",
+                 it. 1e-3 s distinguishes an impact that is late from one that is missing.",
     },
     Knob {
         name: "reference-limit",
@@ -135,7 +135,7 @@ pub const KNOBS: &[Knob] = &[
         name: "run-limit",
         label: "Run limit",
         unit: "s",
-        reason: "Wall time given to one run, so that a tiny Δt or a pile does not hold the study up. After \
+        reason: "Wall time given to one run, so that a tiny Δt or a pile does not hold up the study. After \
                  20 s the figures are those of the part that was run.",
     },
 ];
@@ -149,8 +149,8 @@ pub struct SettingsError {
     pub complaint: &'static str,
 }
 
-impl Settings {
-    /// Refuses what can't be carried out.
+impl StudySettings {
+    /// Refuses what cannot be carried out.
     pub fn check(&self) -> Result<(), SettingsError> {
         let refuse = |name, complaint| Err(SettingsError { name, complaint });
         let is_time = |time: f64| time > 0.0 && time.is_finite();

@@ -1,9 +1,9 @@
 //! The report as an aligned table for people.
 
-use super::{AXES, Axis, Point, Report, Stop, seconds, short};
+use super::{AXES, Axis, RunFigures, Stop, StudyReport, seconds, short};
 
 /// The statement about the horizon and the table, with units, lines ended by a line feed.
-pub fn table(report: &Report) -> String {
+pub fn table(report: &StudyReport) -> String {
     let mut text = format!("{}\n{}\n", report.title(), report.horizon_statement());
     if report.cancelled {
         text += "Cancelled: this is what was done until then.\n";
@@ -71,7 +71,7 @@ fn columns() -> impl Iterator<Item = &'static Axis> {
 }
 
 /// The cells of one run, one for each of [`row_heads`].
-pub fn row_cells(point: &Point) -> Vec<String> {
+pub fn row_cells(point: &RunFigures) -> Vec<String> {
     let number = |value: Option<f64>| value.map_or("n/a".into(), short);
     let count = |value: Option<u64>| value.map_or("n/a".into(), |value| value.to_string());
     let mut cells = vec![
@@ -84,7 +84,7 @@ pub fn row_cells(point: &Point) -> Vec<String> {
     cells
 }
 
-fn name(point: &Point) -> String {
+fn name(point: &RunFigures) -> String {
     point.dt.map_or(point.method.name().into(), |dt| format!("{}, Δt {},", point.method.name(), seconds(dt)))
 }
 

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::measure::PREDICTIONS;
-use super::{Candidate, Control, Limits, Point};
+use super::{Candidate, Control, Limits, RunFigures};
 use crate::scene::Scene;
 use crate::sim::{Progress, Simulation};
 
@@ -14,7 +14,7 @@ const FILLED: Duration = Duration::from_millis(3);
 pub(super) fn time_run(
     candidate: &Candidate,
     start: &Simulation,
-    point: &Point,
+    point: &RunFigures,
     limits: &Limits,
     control: &Control,
 ) -> Option<f64> {
@@ -70,7 +70,7 @@ fn run_through(
 }
 
 /// The median and the range of all timings of each point.
-pub(super) fn summarise(timings: &mut [f64], point: &mut Point) {
+pub(super) fn summarise(timings: &mut [f64], point: &mut RunFigures) {
     timings.sort_by(f64::total_cmp);
     let middle = timings.len() / 2;
     point.wall_per_s = match timings.len() {
@@ -81,7 +81,7 @@ pub(super) fn summarise(timings: &mut [f64], point: &mut Point) {
     point.wall_range = timings.first().zip(timings.last()).map(|(first, last)| [*first, *last]);
 }
 
-/// The simulation to time, at its start; `None` for a scene that can't be simulated.
+/// The simulation to time, at its start; `None` for a scene that cannot be simulated.
 pub(super) fn starting(candidate: &Candidate, scene: &Scene) -> Option<Simulation> {
     candidate.start(scene).ok()
 }

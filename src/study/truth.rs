@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 
 use glam::DVec3;
 
-use super::reference::{Ball, Reference, Settings as ReferenceSettings, Step};
-use super::{Control, Hit, Horizon, HorizonCause, Settings};
+use super::reference::{Ball, Reference, ReferenceSettings, Step};
+use super::{Control, Horizon, HorizonCause, PairImpact, StudySettings};
 use crate::scene::Scene;
 
 /// The reference at one time.
@@ -16,7 +16,7 @@ pub struct TruthSample {
     pub time: f64,
     /// Centre (m) and velocity (m/s) of each dynamic body, in the order of the file.
     pub states: Vec<(DVec3, DVec3)>,
-    /// The largest position error so far that the reference owns up to, m.
+    /// The largest position error so far that the reference admits, m.
     pub error: f64,
 }
 
@@ -24,7 +24,7 @@ pub struct TruthSample {
 #[derive(Clone, Debug)]
 pub struct Truth {
     pub samples: Vec<TruthSample>,
-    pub hits: Vec<Hit>,
+    pub hits: Vec<PairImpact>,
     pub horizon: Horizon,
 }
 
@@ -33,7 +33,7 @@ const SAME_TIME: f64 = 1e-12;
 
 impl Truth {
     /// Runs the reference to each of these times, as far as it can be trusted.
-    pub fn find(scene: &Scene, times: &[f64], settings: &Settings, control: &mut Control) -> Self {
+    pub fn find(scene: &Scene, times: &[f64], settings: &StudySettings, control: &mut Control) -> Self {
         let deadline = Instant::now() + Duration::from_secs_f64(settings.reference_limit.min(1e9));
         let mut truth = Self {
             samples: Vec::new(),
@@ -94,14 +94,14 @@ fn merged(times: &[f64]) -> Vec<f64> {
 fn advance(
     reference: &mut Reference,
     until: f64,
-    hits: &mut Vec<Hit>,
+    hits: &mut Vec<PairImpact>,
     deadline: Instant,
     control: &Control,
 ) -> Result<(), HorizonCause> {
     loop {
         match reference.step(until) {
             Ok(Step::Flew) => {}
-            Ok(Step::Impact(impact)) => hits.push(Hit { time: impact.time, bodies: impact.bodies }),
+            Ok(Step::Impact(impact)) => hits.push(PairImpact { time: impact.time, bodies: impact.bodies }),
             Ok(Step::Done) => return Ok(()),
             Err(end) => {
                 return Err(HorizonCause::Unknown(format!("the reference ends where {end}")));

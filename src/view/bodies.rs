@@ -6,7 +6,7 @@ use super::stage::{Pen, Posed, Stage};
 use super::{Color, DrawList, Plate, Point, PointShape, Sphere};
 use crate::scene::{Shape, rotation_matrix};
 
-/// Spheres are never drawn smaller than this, so that they don't vanish: radius in points.
+/// Spheres are never drawn smaller than this, so that they do not vanish: radius in points.
 const SMALLEST_RADIUS: f64 = 1.5;
 
 /// More plates than this are drawn without edges.

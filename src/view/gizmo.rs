@@ -35,7 +35,7 @@ pub struct Handle {
 /// Length of a gizmo arrow that lies in the view's plane, points.
 const HANDLE_POINTS: f64 = 64.0;
 
-/// Arrows seen shorter than this point at the viewer and can't be dragged sensibly, points.
+/// Arrows seen shorter than this point at the viewer and cannot be dragged sensibly, points.
 const SHORTEST_HANDLE: f64 = 14.0;
 
 /// The arrows to drag a body at `place` along the axes; those that point at the viewer are left out.

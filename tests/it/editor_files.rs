@@ -118,7 +118,7 @@ fn a_save_that_fails_says_so_and_does_not_go_on() {
     let mut bench = dirty();
     bench.run(Command::SaveAs);
     bench.act(Action::SaveTo(bench.folder.path().join("missing/folder/scene.xml")));
-    assert!(bench.notices().contains("can't be saved"));
+    assert!(bench.notices().contains("cannot be saved"));
     assert!(bench.session.is_dirty());
     assert_eq!(bench.session.title(), "scene.xml");
 }
@@ -200,7 +200,7 @@ fn a_file_that_cannot_be_read_leaves_everything_as_it_was() {
     bench.run(Command::Undo);
     for path in [bench.folder.path().join("nowhere.xml"), bench.folder.path().to_owned()] {
         bench.act(Action::OpenPath(path));
-        assert!(bench.notices().contains("can't be opened"));
+        assert!(bench.notices().contains("cannot be opened"));
         assert_eq!(bench.session.title(), "scene.xml");
     }
     bench.run(Command::Redo);

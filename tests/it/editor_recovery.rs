@@ -139,7 +139,7 @@ fn a_folder_that_cannot_be_written_is_told_once_and_stops_nothing() {
     let mut bench = Bench::with_storage(folder);
     bench.run(Command::AddPlane);
     bench.wait(Duration::from_secs(20));
-    assert!(bench.notices().contains("can't be kept safe"));
+    assert!(bench.notices().contains("cannot be kept safe"));
     bench.run(Command::AddPlane);
     bench.wait(Duration::from_secs(20));
     assert_eq!(bench.notices(), "");

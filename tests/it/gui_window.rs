@@ -123,7 +123,7 @@ fn another_method_starts_again_and_says_so() {
 fn a_dt_that_is_none_is_refused_with_the_reason() {
     let mut window = Window::thesis();
     window.type_text("Δt", "fast");
-    assert!(window.has_containing("is no number"));
+    assert!(window.has_containing("is not a number"));
     assert_eq!(window.harness.state().session().playback().dt_text(), "1/60");
 }
 

@@ -12,9 +12,9 @@ fn numbers_that_make_no_sense_are_refused_in_words() {
     let mut window = Window::thesis();
     window.click_role(Role::TreeItem, "5853");
     for (text, words) in [
-        ("abc", "“abc” is no number"),
-        ("1.234,5", "“1.234,5” is no number"),
-        ("1e400", "“1e400” is no number"),
+        ("abc", "“abc” is not a number"),
+        ("1.234,5", "“1.234,5” is not a number"),
+        ("1e400", "“1e400” is not a number"),
         ("", "Nothing was typed: the mass"),
         ("-3", "-3 is out of range: the mass must be above 0"),
         ("0", "0 is out of range: the mass"),
@@ -38,7 +38,7 @@ fn counts_have_no_fractions() {
     let mut window = Window::thesis();
     window.click_role(Role::TreeItem, "Map");
     let before = window.scene().map.tiles;
-    for (text, words) in [("1,5", "1,5 is no whole number"), ("1e308", "1e308 is out of range")] {
+    for (text, words) in [("1,5", "1,5 is not a whole number"), ("1e308", "1e308 is out of range")] {
         window.type_number("Tiles x", text);
         assert!(window.has_containing(words), "{text}");
         assert_eq!(window.scene().map.tiles, before);
@@ -57,7 +57,7 @@ fn angles_are_typed_in_degrees_too() {
         assert!((angle.to_degrees() - degrees).abs() < 1e-9, "{text}: {angle}");
     }
     window.type_number("Position x", "30°");
-    assert!(window.has_containing("“30°” is no number"));
+    assert!(window.has_containing("“30°” is not a number"));
 }
 
 #[test]
@@ -65,7 +65,7 @@ fn a_wrong_user_id_is_refused_in_words() {
     let mut window = Window::thesis();
     window.click_role(Role::TreeItem, "5853");
     window.type_text("User ID", "ball");
-    assert!(window.has_containing("“ball” is no UserID"));
+    assert!(window.has_containing("“ball” is not a UserID"));
     assert_eq!(window.body("5853").id, 5853);
 }
 

@@ -2,10 +2,10 @@
 
 use polyscene::editor::SAMPLES;
 use polyscene::scene::{Document, Scene};
+use polyscene::study::Random;
 
 use crate::common::build::Build;
 use crate::common::drive::{Run, SAMPLINGS, Sampling, assert_same_bits, run};
-use crate::common::random::Random;
 
 const TILES: [[u32; 3]; 3] = [[1; 3], [10; 3], [37; 3]];
 

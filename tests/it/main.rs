@@ -11,7 +11,7 @@
 
 // The command line through the real program: formats, exit codes, streams, hostile files.
 mod cli;
-// Shared helpers: scenes, seeded numbers, driving, the all-pairs monitor.
+// Shared helpers: scenes, driving, the reference.
 mod common;
 // The command table: unique names and keys, reasons for what is disabled.
 mod editor_commands;
@@ -53,6 +53,8 @@ mod hard_invariance;
 mod hard_verb;
 // The rules of the source tree: layers, file sizes, function sizes.
 mod layering;
+// Files of a layer import each other in one direction.
+mod layering_circles;
 // Runners with the methods that step by Δt: going back at the Δt of then.
 mod record_methods;
 // The event at which the residual changed most, and going back to it.
@@ -101,6 +103,8 @@ mod sim_random;
 mod sim_roots;
 // The thesis's own scene against the reference, and its invariants over a minute.
 mod sim_thesis;
+// Contact scenes from seeds: seams, corners, squeezes, slots, pits, heaps, at any size.
+mod sim_variants;
 // The reference against closed forms and itself, and where it says that it can't be trusted.
 mod study_reference;
 // Whole studies: exact comes out exact, wrong laws are found out, horizon, cancelling, files.

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use glam::{DVec3, dvec3};
 use polyscene::scene::Scene;
 use polyscene::sim::BodyState;
+use polyscene::study::closed_form::{self, Ellipse, FallInAir};
 
 use crate::common::build::{Build, Shaped, ball, empty};
 use crate::common::drive::{Sampling, simulation, state_of, watch};
@@ -22,16 +23,15 @@ fn at_samples(scene: &Scene, until: f64, dt: f64, mut check: impl FnMut(f64, Bod
 
 #[test]
 fn throw_follows_its_parabola() {
-    // NUMERICS case 1: relative position error ≤ 1e-12 at each of 1000 samples.
+    // Relative position error ≤ 1e-12 at each of 1000 samples.
     let (start, velocity) = (dvec3(3.0, 4.0, 5.0), dvec3(2.0, 7.0, -1.5));
     let scene = empty().gravity(-9.8).ball(1, start, velocity);
     for dt in STEPS {
         at_samples(&scene, 1000.0 * dt, dt, |t, state| {
-            let expected = start + velocity * t + dvec3(0.0, -4.9 * t * t, 0.0);
-            let error = (state.position - expected).length() / expected.length();
+            let (place, speed) = closed_form::throw(start, velocity, dvec3(0.0, -9.8, 0.0), t);
+            let error = (state.position - place).length() / place.length();
             assert!(error <= 1e-12, "Δt {dt}, t {t}: {error:e}");
-            let expected = velocity + dvec3(0.0, -9.8 * t, 0.0);
-            assert!((state.velocity - expected).length() <= 1e-12 * expected.length(), "Δt {dt}, t {t}");
+            assert!((state.velocity - speed).length() <= 1e-12 * speed.length(), "Δt {dt}, t {t}");
             assert_eq!(state.acceleration, dvec3(0.0, -9.8, 0.0));
         });
     }
@@ -45,22 +45,15 @@ fn several_uniform_fields_add_up() {
     });
 }
 
-/// Position on a Kepler ellipse in the xz plane, from Kepler's equation by Newton's method.
-fn kepler(semi_axis: f64, eccentricity: f64, intensity: f64, t: f64) -> DVec3 {
-    let turns = t * (intensity / semi_axis.powi(3)).sqrt() / (2.0 * PI);
-    let mean_anomaly = (turns - turns.floor()) * 2.0 * PI;
-    let mut anomaly = if eccentricity > 0.8 { PI } else { mean_anomaly };
-    for _ in 0..60 {
-        let error = anomaly - eccentricity * anomaly.sin() - mean_anomaly;
-        anomaly -= error / (1.0 - eccentricity * anomaly.cos());
-    }
-    let minor_axis = semi_axis * (1.0 - eccentricity * eccentricity).sqrt();
-    dvec3(semi_axis * (anomaly.cos() - eccentricity), 0.0, -minor_axis * anomaly.sin())
+/// Offset from an attractor of 10 m³/s² in the xz plane, on an ellipse of a = 2.5 m that begins at the periapsis.
+fn on_ellipse(eccentricity: f64, t: f64) -> DVec3 {
+    let [along, across] = Ellipse { axis: 2.5, eccentricity, intensity: 10.0, phase: 0.0 }.offset(t);
+    dvec3(along, 0.0, -across)
 }
 
 #[test]
 fn kepler_ellipse_stays_for_a_hundred_orbits() {
-    // NUMERICS case 9, e = 0.6: a = 2.5 m, G = 10 m³/s², T = 2.5π s, 1 m and 4 m/s at the periapsis.
+    // a = 2.5 m, e = 0.6, G = 10 m³/s²: T = 2.5π s, 1 m and 4 m/s at the periapsis.
     let centre = DVec3::splat(5.0);
     let scene =
         empty().attractor(centre, 10.0).body(ball(1, centre + DVec3::X, dvec3(0.0, 0.0, -4.0)).radius(0.15));
@@ -76,7 +69,7 @@ fn kepler_ellipse_stays_for_a_hundred_orbits() {
                 return;
             }
             let (t, state) = (sim.time(), state_of(sim, 1));
-            let off = (state.position - centre - kepler(2.5, 0.6, 10.0, t)).length() / 2.5;
+            let off = (state.position - centre - on_ellipse(0.6, t)).length() / 2.5;
             assert!(off <= 1e-6, "Δt {dt}, t {t}: off by {off:e} of the semi-axis");
             let found = state.velocity.length_squared() / 2.0 - 10.0 / (state.position - centre).length();
             assert!((found / energy - 1.0).abs() <= 1e-9, "Δt {dt}, t {t}: energy {found}");
@@ -88,7 +81,7 @@ fn kepler_ellipse_stays_for_a_hundred_orbits() {
 
 #[test]
 fn thin_kepler_ellipse_stays_for_ten_orbits() {
-    // NUMERICS case 9, e = 0.99: the centre passes 0.025 m from the attractor at 28 m/s.
+    // The centre passes 0.025 m from the attractor at 28 m/s.
     let centre = DVec3::splat(5.0);
     let speed = (10.0 * 1.99 / (2.5 * 0.01_f64)).sqrt();
     let scene = empty()
@@ -96,7 +89,7 @@ fn thin_kepler_ellipse_stays_for_ten_orbits() {
         .body(ball(1, centre + DVec3::X * 0.025, dvec3(0.0, 0.0, -speed)).radius(0.01));
     for dt in STEPS {
         at_samples(&scene, 25.0 * PI, dt, |t, state| {
-            let off = (state.position - centre - kepler(2.5, 0.99, 10.0, t)).length() / 2.5;
+            let off = (state.position - centre - on_ellipse(0.99, t)).length() / 2.5;
             assert!(off <= 1e-6, "Δt {dt}, t {t}: off by {off:e} of the semi-axis");
             let found = state.velocity.length_squared() / 2.0 - 10.0 / (state.position - centre).length();
             assert!((found / -2.0 - 1.0).abs() <= 1e-9, "Δt {dt}, t {t}: energy {found}");
@@ -117,16 +110,13 @@ fn repelled_body_flies_off_with_its_energy() {
 
 #[test]
 fn fall_through_air_nears_its_terminal_speed() {
-    // NUMERICS case 11: v = v∞ tanh(g t / v∞), s = v∞²/g ln cosh(g t / v∞), v∞ = √(2 m g / (C ρ S)).
     let (mass, radius, density) = (0.05, 0.1, 1.276);
-    let terminal = (2.0 * mass * 9.8 / (0.5 * density * PI * radius * radius)).sqrt();
+    let fall = FallInAir::new(9.8, mass, radius, density);
     let falling = ball(1, dvec3(5.0, 60.0, 5.0), DVec3::ZERO).radius(radius).mass(mass);
     let scene = empty().gravity(-9.8).air(density).body(falling);
     for dt in STEPS {
         at_samples(&scene, 10.0, dt, |t, state| {
-            let x = 9.8 * t / terminal;
-            let fallen = terminal * terminal / 9.8 * (x + (-2.0 * x).exp().ln_1p() - 2.0_f64.ln());
-            let speed = terminal * x.tanh();
+            let (speed, fallen) = (fall.speed(t), fall.fallen(t));
             assert!((state.velocity.y / -speed - 1.0).abs() <= 1e-8, "Δt {dt}, t {t}: {}", state.velocity.y);
             // Measured from 60 m, the place itself is only known to an ulp of it.
             let error = (60.0 - state.position.y - fallen).abs();

@@ -5,11 +5,12 @@ use std::f64::consts::FRAC_PI_2;
 use glam::{DVec3, dvec3};
 use polyscene::scene::Scene;
 use polyscene::sim::{ContactState, Event, EventKind};
+use polyscene::study::OverlapMonitor;
+use polyscene::study::closed_form::{Bounces, touch_beyond_edge};
 
 use crate::common::build::{Build, Shaped, ball, empty, plate, static_ball};
 use crate::common::drive::{Sampling, advance, impacts, run, simulation, state_of, watch};
 use crate::common::load::load;
-use crate::common::monitor::Monitor;
 
 /// The Δt at which every closed form must hold.
 const STEPS: [f64; 3] = [1.0, 1.0 / 60.0, 1e-3];
@@ -19,56 +20,53 @@ fn drop(bounce: f64) -> Scene {
     empty().gravity(-9.8).floor(1, 3.0).body(ball(2, dvec3(5.0, 5.0, 5.0), DVec3::ZERO).bounce(bounce))
 }
 
-fn first_fall() -> f64 {
-    (2.0 * 4.5 / 9.8_f64).sqrt()
+fn bounces(bounce: f64) -> Bounces {
+    Bounces::dropped(4.5, 9.8, bounce)
 }
 
 #[test]
 fn elastic_ball_bounces_at_closed_form_times() {
-    // NUMERICS case 2: the k-th impact at (2k+1)·√(2h/g).
+    let (bounces, speed) = (bounces(1.0), 9.8 * bounces(1.0).first_fall);
     for dt in STEPS {
         let (scene, mut events) = (drop(1.0), Vec::new());
-        let (monitor, mut sim) = (Monitor::new(&scene), simulation(&scene));
+        let (monitor, mut sim) = (OverlapMonitor::in_id_order(&scene), simulation(&scene));
         watch(&mut sim, 20.0, Sampling::Every(dt), |sim, event| {
             events.extend(event.copied());
             let residual = sim.energy().residual.expect("gravity has a potential");
             assert!(residual.abs() <= 1e-12, "Δt {dt}, t {}: residual {residual:e}", sim.time());
-            let overlap = monitor.worst_overlap(sim);
+            let overlap = monitor.worst_now(sim);
             assert!(overlap <= 1e-12, "Δt {dt}, t {}: overlap {overlap:e}", sim.time());
         });
         assert_eq!(events.len(), 10, "{events:?}");
-        for (k, event) in events.iter().enumerate() {
+        for (k, event) in (0..).zip(&events) {
             assert_eq!(event.kind, EventKind::Impact);
-            let error = event.time - first_fall() * (2 * k + 1) as f64;
+            let error = event.time - bounces.impact_time(k);
             assert!(error.abs() <= 1e-11, "Δt {dt}, impact {k}: {error:e} s");
             assert!((event.point - dvec3(5.0, 0.0, 5.0)).length() <= 1e-12, "{event:?}");
             // The floor has the smaller UserID, so the normal points up.
             assert!((event.normal - DVec3::Y).length() <= 1e-12, "{event:?}");
-            assert!((event.impulse - 2.0 * 9.8 * first_fall()).abs() <= 1e-11, "{event:?}");
-            assert!((event.vn_before + 9.8 * first_fall()).abs() <= 1e-11, "{event:?}");
-            assert!((event.vn_after - 9.8 * first_fall()).abs() <= 1e-11, "{event:?}");
+            assert!((event.impulse - 2.0 * speed).abs() <= 1e-11, "{event:?}");
+            assert!((event.vn_before + speed).abs() <= 1e-11, "{event:?}");
+            assert!((event.vn_after - speed).abs() <= 1e-11, "{event:?}");
         }
     }
 }
 
 #[test]
 fn lossy_ball_comes_to_rest_at_the_limit_time() {
-    // NUMERICS case 3: flights shrink by e, so all bounces end at t₁ (1+e)/(1−e) = 9 t₁.
-    let e = 0.8_f64;
+    let expected = bounces(0.8);
     for dt in STEPS {
-        let mut sim = simulation(&drop(e));
+        let mut sim = simulation(&drop(0.8));
         let events = advance(&mut sim, 10.0, Sampling::Every(dt));
         let bounces = impacts(&events);
         assert!(bounces.len() >= 50, "only {} bounces before rest", bounces.len());
-        let mut expected = first_fall();
-        for (k, event) in bounces.iter().enumerate() {
-            let error = event.time - expected;
+        for (k, event) in (0..).zip(&bounces) {
+            let error = event.time - expected.impact_time(k);
             assert!(error.abs() <= 1e-9, "Δt {dt}, bounce {k}: {error:e} s");
-            expected += 2.0 * first_fall() * e.powi(k as i32 + 1);
         }
         let rests: Vec<&Event> = events.iter().filter(|event| event.kind == EventKind::Rest).collect();
         assert_eq!(rests.len(), 1, "Δt {dt}");
-        assert!((rests[0].time - 9.0 * first_fall()).abs() <= 1e-6, "Δt {dt}: {:?}", rests[0]);
+        assert!((rests[0].time - expected.end()).abs() <= 1e-6, "Δt {dt}: {:?}", rests[0]);
         assert_eq!(events.last(), Some(rests[0]), "nothing happens after rest");
 
         let lying = state_of(&sim, 2);
@@ -81,11 +79,10 @@ fn lossy_ball_comes_to_rest_at_the_limit_time() {
 
 #[test]
 fn nearly_elastic_ball_comes_to_rest_too() {
-    let fall = (2.0 * 0.5 / 9.8_f64).sqrt();
     for e in [0.9, 0.99, 0.999] {
         let dropped = ball(2, dvec3(5.0, 1.0, 5.0), DVec3::ZERO).bounce(e);
         let mut sim = simulation(&empty().gravity(-9.8).floor(1, 3.0).body(dropped));
-        let end = fall * (1.0 + e) / (1.0 - e);
+        let end = Bounces::dropped(0.5, 9.8, e).end();
         let events = advance(&mut sim, end * 1.01, Sampling::Every(1.0));
         let last = events.last().expect("events");
         assert_eq!(last.kind, EventKind::Rest, "e = {e}: {last:?}");
@@ -109,11 +106,11 @@ fn thrown_lossy_ball_ends_sliding_at_constant_speed() {
     let scene = empty().gravity(-9.8).floor(1, 400.0).body(thrown);
     for dt in STEPS {
         let mut sim = simulation(&scene);
-        // The bounces end at t₁ (1+e)/(1−e) = 4 t₁ = 2.213 s.
+        // The bounces end at 2.213 s.
         let events = advance(&mut sim, 4.0, Sampling::Every(dt));
         assert!(events.iter().any(|event| event.kind != EventKind::Impact), "the bounces must end");
         let end = events.last().expect("events").time;
-        assert!((end - 4.0 * (3.0 / 9.8_f64).sqrt()).abs() <= 1e-6, "Δt {dt}: ended at {end}");
+        assert!((end - Bounces::dropped(1.5, 9.8, 0.6).end()).abs() <= 1e-6, "Δt {dt}: ended at {end}");
         let sliding = state_of(&sim, 2);
         assert_eq!(sliding.contact, ContactState::Slide);
         assert_eq!(advance(&mut sim, 100.0, Sampling::Every(dt)), []);
@@ -155,16 +152,13 @@ fn assert_hit(event: &Event, time: f64, point: DVec3, normal: DVec3) {
 
 #[test]
 fn bullet_meets_face_edge_and_corner_where_geometry_says() {
-    // NUMERICS case 6. Beyond the sides by (dy, dz), contact comes at x = 10 − √(r² − dy² − dz²).
     let offsets =
         [(0.0, 0.0), (-0.3, 0.7), (1.03, 0.0), (-0.2, -1.04), (1.03, 1.02), (-1.01, 1.03), (1.0499, 0.0)];
     for (y, z) in offsets {
         let beyond = |offset: f64| offset.signum() * (offset.abs() - 1.0).max(0.0);
-        let (dy, dz) = (beyond(y), beyond(z));
-        let depth = (0.0025 - dy * dy - dz * dz).sqrt();
+        // The normal goes from the plate, the smaller UserID, to the ball.
+        let (depth, normal) = touch_beyond_edge(0.05, [beyond(y), beyond(z)]);
         let centre = dvec3(10.0 - depth, 5.0 + y, 5.0 + z);
-        // From the plate, the smaller UserID, to the ball.
-        let normal = dvec3(-depth, dy, dz) / 0.05;
         for dt in STEPS {
             let run = run(&bullet(5.0 + y, 5.0 + z), 0.02, Sampling::Every(dt));
             assert_eq!(run.events.len(), 1, "offset {y}, {z}: {:?}", run.events);
@@ -207,7 +201,7 @@ fn hits(scene: &Scene) -> bool {
 
 #[test]
 fn grazing_passes_tell_hit_from_miss() {
-    // NUMERICS case 12: past a sphere, a plate's edge, its corner, at r (1 ∓ 1e-9).
+    // Past a sphere, a plate's edge, its corner, a moving ball, at r (1 ∓ 1e-9).
     let thrown = |y: f64, z: f64| ball(2, dvec3(1.0, y, z), dvec3(10.0, 0.0, 0.0));
     let sphere = |y: f64| empty().body(static_ball(1, dvec3(5.0, 0.0, 0.0), 1.5)).body(thrown(y, 0.0));
     let upright = || empty().plate(1, dvec3(5.0, -1.0, -1.0), dvec3(0.0, FRAC_PI_2, 0.0), 1.0, 1.0);

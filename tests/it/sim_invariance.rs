@@ -3,13 +3,13 @@
 use glam::DVec3;
 use polyscene::scene::Scene;
 use polyscene::sim::Progress;
+use polyscene::study::Random;
 
 use crate::common::build::{Build, thesis};
 use crate::common::drive::{
     Run, SAMPLINGS, Sampling, advance, assert_same_bits, finished, run, simulation, states,
 };
 use crate::common::load::load;
-use crate::common::random::Random;
 use crate::sim_random::{Contents, random_scene};
 
 const TILES: [[u32; 3]; 3] = [[1; 3], [10; 3], [37; 3]];

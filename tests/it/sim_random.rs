@@ -9,11 +9,10 @@ use polyscene::sim::{EventKind, Simulation};
 use crate::common::build::{Build, Shaped, ball, empty, plate, static_ball};
 use crate::common::drive::{Sampling, run, simulation, watch};
 use crate::common::load::load;
-use crate::common::monitor::Monitor;
-use crate::common::random::Random;
 use crate::common::reference::{reference, with_settings};
 use polyscene::study::reference::geometry::Surface;
-use polyscene::study::reference::{End, Settings};
+use polyscene::study::reference::{End, ReferenceSettings};
+use polyscene::study::{OverlapMonitor, Random};
 
 /// What a random scene is made of.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -90,8 +89,9 @@ fn free_place(scene: &Scene, radius: f64, random: &mut Random) -> DVec3 {
 fn elastic_scenes_agree_with_the_reference() {
     for seed in 0..10 {
         let scene = random_scene(seed, Contents::Elastic);
-        let [mut reference, mut check] =
-            [0.2, 0.07].map(|stride| with_settings(&scene, Settings { stride, ..Settings::default() }));
+        let [mut reference, mut check] = [0.2, 0.07].map(|stride| {
+            with_settings(&scene, ReferenceSettings { stride, ..ReferenceSettings::default() })
+        });
         let events = run(&scene, 3.0, Sampling::Every(1.0 / 60.0)).events;
         let sim = simulation(&scene);
         assert!(events.len() >= 10, "seed {seed}: only {} events", events.len());
@@ -169,13 +169,13 @@ fn energy(sim: &Simulation, scene: &Scene) -> f64 {
 
 /// No overlap, energy never up, the residual small, everything inside and finite.
 pub fn assert_sound(scene: &Scene, until: f64, what: &str) {
-    let monitor = Monitor::new(scene);
+    let monitor = OverlapMonitor::in_id_order(scene);
     let mut sim = simulation(scene);
     let mut last = energy(&sim, scene);
     let mut scale = last.abs();
     watch(&mut sim, until, Sampling::Random(17), |sim, _| {
         let t = sim.time();
-        let overlap = monitor.worst_overlap(sim);
+        let overlap = monitor.worst_now(sim);
         assert!(overlap <= 1e-9, "{what}, t {t}: overlap {overlap:e} m");
         let escape = monitor.worst_escape(sim, &[1, 2, 3, 4, 5, 6]);
         assert!(escape <= 1e-9, "{what}, t {t}: {escape:e} m through a wall");

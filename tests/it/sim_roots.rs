@@ -5,10 +5,10 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 use polyscene::scene::{ForceKind, Scene};
+use polyscene::study::Random;
 
 use crate::common::build::{Build, Shaped, ball, empty, plate, static_ball};
 use crate::common::drive::{Sampling, impacts, run};
-use crate::common::random::Random;
 use crate::common::reference::reference;
 
 /// What bends the ball's path.

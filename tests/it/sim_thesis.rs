@@ -1,12 +1,11 @@
 //! The thesis's own scene: against the reference, and its invariants over a minute.
 
 use polyscene::sim::EventKind;
+use polyscene::study::{OverlapMonitor, Random};
 
 use crate::common::build::thesis;
 use crate::common::drive::{Sampling, run, simulation, watch};
 use crate::common::load::load;
-use crate::common::monitor::Monitor;
-use crate::common::random::Random;
 use crate::common::reference::reference;
 
 /// UserIDs of the six walls.
@@ -57,7 +56,7 @@ fn first_thirty_events_agree_with_the_reference() {
 #[test]
 fn minute_keeps_every_invariant() {
     let scene = load("thesis-appendix-2.xml");
-    let monitor = Monitor::new(&scene);
+    let monitor = OverlapMonitor::in_id_order(&scene);
     let mut sim = simulation(&scene);
     let total = sim.energy().total.expect("both forces have potentials");
     assert!((total - 47.0107).abs() <= 5e-5, "E₀ = {total} J");
@@ -69,7 +68,7 @@ fn minute_keeps_every_invariant() {
             None => samples += 1,
         }
         let t = sim.time();
-        let overlap = monitor.worst_overlap(sim);
+        let overlap = monitor.worst_now(sim);
         assert!(overlap <= 1e-9, "t {t}: overlap {overlap:e} m");
         let escape = monitor.worst_escape(sim, &WALLS);
         assert!(escape <= 1e-9, "t {t}: {escape:e} m through a wall");
@@ -87,14 +86,14 @@ fn minute_keeps_every_invariant() {
 #[test]
 fn core_reports_the_overlap_the_monitor_sees() {
     let scene = load("thesis-appendix-2.xml");
-    let monitor = Monitor::new(&scene);
+    let monitor = OverlapMonitor::in_id_order(&scene);
     let mut sim = simulation(&scene);
     let mut random = Random::new(3);
     for _ in 0..50 {
         let target = sim.time() + random.range(0.0, 0.4);
         sim.begin(target);
         sim.finish(&mut |_, _| ()).expect("a run without faults");
-        let (own, seen) = (sim.worst_overlap(), monitor.worst_overlap(&sim));
+        let (own, seen) = (sim.worst_overlap(), monitor.worst_now(&sim));
         assert!((own - seen).abs() <= 1e-14, "t {}: {own:e} and {seen:e}", sim.time());
     }
 }

@@ -1,13 +1,14 @@
 //! The reference against closed forms and itself: it must be right before it may judge.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::{DVec3, dvec3};
 
-use crate::common::build::{Build, Shaped, ball, empty, static_ball, thesis};
+use crate::common::build::{Build, Shaped, ball, empty, plate, static_ball, thesis};
 use crate::common::reference::{reference, with_settings};
 use crate::sim_chain::counting_pi;
-use polyscene::study::reference::{End, Settings};
+use polyscene::study::closed_form::{Bounces, FallInAir, cradle, pi_collisions};
+use polyscene::study::reference::{End, ReferenceSettings};
 
 #[test]
 fn kepler_orbit_closes() {
@@ -27,24 +28,22 @@ fn drag_follows_the_hyperbolic_tangent() {
     let scene = empty().gravity(-9.8).air(1.276).body(ball(1, DVec3::ZERO, DVec3::ZERO).radius(0.1));
     let mut reference = reference(&scene);
     assert!(reference.next_impact(5.0) == Ok(None));
-    let terminal = (2.0 * 9.8 / (0.5 * 1.276 * PI * 0.01_f64)).sqrt();
-    let x = 9.8 * 5.0 / terminal;
-    let fallen = terminal * terminal / 9.8 * x.cosh().ln();
+    let fall = FallInAir::new(9.8, 1.0, 0.1, 1.276);
     let body = reference.ball(1).expect("ball 1");
-    assert!((body.velocity.value.y / (-terminal * x.tanh()) - 1.0).abs() < 1e-14, "{body:?}");
-    assert!((body.position.value.y / -fallen - 1.0).abs() < 1e-14, "{body:?}");
+    assert!((body.velocity.value.y / -fall.speed(5.0) - 1.0).abs() < 1e-14, "{body:?}");
+    assert!((body.position.value.y / -fall.fallen(5.0) - 1.0).abs() < 1e-14, "{body:?}");
 }
 
 #[test]
 fn bounces_come_at_their_times() {
     let scene = empty().gravity(-9.8).floor(1, 3.0).ball(2, dvec3(5.0, 5.0, 5.0), DVec3::ZERO);
     let impacts = reference(&scene).impacts(10.0).expect("finite");
-    let first = (2.0 * 4.5 / 9.8_f64).sqrt();
+    let bounces = Bounces::dropped(4.5, 9.8, 1.0);
     assert_eq!(impacts.len(), 5);
-    for (k, impact) in impacts.iter().enumerate() {
-        assert!((impact.time - first * (2 * k + 1) as f64).abs() < 1e-13, "{impact:?}");
+    for (k, impact) in (0..).zip(&impacts) {
+        assert!((impact.time - bounces.impact_time(k)).abs() < 1e-13, "{impact:?}");
         assert!((impact.normal - DVec3::Y).length() < 1e-15, "{impact:?}");
-        assert!((impact.impulse - 2.0 * 9.8 * first).abs() < 1e-12, "{impact:?}");
+        assert!((impact.impulse - 2.0 * 9.8 * bounces.first_fall).abs() < 1e-12, "{impact:?}");
     }
 }
 
@@ -77,7 +76,8 @@ fn energy_stays_on_the_thesis_scene() {
 #[test]
 fn thirty_events_do_not_depend_on_the_step() {
     let [coarse, fine] = [0.3, 0.05].map(|stride| {
-        let mut reference = with_settings(&thesis(), Settings { stride, ..Settings::default() });
+        let mut reference =
+            with_settings(&thesis(), ReferenceSettings { stride, ..ReferenceSettings::default() });
         (0..30).filter_map(|_| reference.next_impact(60.0).ok().flatten()).collect::<Vec<_>>()
     });
     assert_eq!((coarse.len(), fine.len()), (30, 30));
@@ -89,8 +89,9 @@ fn thirty_events_do_not_depend_on_the_step() {
 
 #[test]
 fn collisions_count_the_digits_of_pi() {
-    for (k, expected) in [(0, 3), (1, 31), (2, 314), (3, 3141)] {
-        assert_eq!(reference(&counting_pi(k)).impacts(20.0).expect("finite").len(), expected);
+    for k in 0..4 {
+        let impacts = reference(&counting_pi(k)).impacts(20.0).expect("finite");
+        assert_eq!(impacts.len() as u64, pi_collisions(k));
     }
 }
 
@@ -100,13 +101,35 @@ fn touching_balls_pass_a_blow_on() {
         let speed = if k == 1 { 2.0 } else { 0.0 };
         scene.ball(k, dvec3(k as f64, 5.0, 5.0), dvec3(speed, 0.0, 0.0))
     });
-    for settings in [Settings::default(), Settings::check()] {
+    for settings in [ReferenceSettings::default(), ReferenceSettings::check()] {
         let mut reference = with_settings(&scene, settings);
         assert_eq!(reference.impacts(1.0).expect("finite").len(), 4);
-        for (k, ball) in reference.balls().iter().enumerate() {
-            let expected = if k == 4 { 2.0 } else { 0.0 };
-            assert!((ball.velocity.value.x - expected).abs() < 1e-15, "{ball:?}");
+        for (ball, expected) in reference.balls().iter().zip(cradle(5, 1, DVec3::X * 2.0)) {
+            assert!((ball.velocity.value - expected).length() < 1e-15, "{ball:?}");
         }
+    }
+}
+
+/// Symptom: `study` accused the exact method of missing impacts of a ball with a wall that it only touches.
+/// Expected: two balls that bounce on a floor beside a wall, touching it, never hit the wall.
+/// Cause: their speed across, the rounding of blows between them, counted as a speed of approach.
+#[test]
+fn touching_a_wall_in_passing_is_no_impact() {
+    let scene = empty()
+        .gravity(-9.81)
+        .body(plate(1, dvec3(5.0, 0.0, 5.0), dvec3(-FRAC_PI_2, 0.0, 0.0), 5.0, 5.0).bounce(0.8))
+        .body(plate(2, dvec3(0.0, 5.0, 5.0), dvec3(0.0, FRAC_PI_2, 0.0), 5.0, 5.0).bounce(0.8))
+        .ball(3, dvec3(0.5, 0.6, 5.0), DVec3::ZERO)
+        .ball(4, dvec3(0.5, 1.7, 5.0), DVec3::ZERO);
+    for settings in [ReferenceSettings::default(), ReferenceSettings::check()] {
+        let mut reference = with_settings(&scene, settings);
+        let mut impacts = Vec::new();
+        while let Ok(Some(impact)) = reference.next_impact(3.0) {
+            impacts.push(impact);
+        }
+        assert!(impacts.len() > 10, "{}", impacts.len());
+        let on_wall: Vec<_> = impacts.iter().filter(|impact| impact.a == 2 || impact.b == 2).collect();
+        assert!(on_wall.is_empty(), "{on_wall:?}");
     }
 }
 
@@ -114,8 +137,7 @@ fn touching_balls_pass_a_blow_on() {
 fn says_where_bouncing_ends() {
     let scene =
         empty().gravity(-9.8).floor(1, 3.0).body(ball(2, dvec3(5.0, 5.0, 5.0), DVec3::ZERO).bounce(0.8));
-    // The first fall, then bounces that take 2·0.8^k of it: nine falls in all.
-    let limit = (2.0 * 4.5 / 9.8_f64).sqrt() * (1.0 + 2.0 * 0.8 / 0.2);
+    let limit = Bounces::dropped(4.5, 9.8, 0.8).end();
     let mut reference = reference(&scene);
     let ended = loop {
         match reference.next_impact(20.0) {

@@ -6,10 +6,10 @@ use egui_plot::{GridInput, GridMark, HoverPosition, Line, MarkerShape, Plot, Plo
 use crate::gui::colors::tones;
 use crate::gui::numbers;
 use crate::sim::Method;
-use crate::study::{Axis, CurvePoint, Marker, Report, Scale, look_of, series_of, short};
+use crate::study::{Axis, CurvePoint, Marker, Scale, StudyReport, look_of, series_of, short};
 
-/// Draws one measure of a report; `serial` tells reports apart, so that a new one is shown whole.
-pub fn show(ui: &mut Ui, report: &Report, axis: &Axis, serial: u64) {
+/// Draws one measure of a report; `serial` distinguishes reports, so that a new one is shown whole.
+pub fn show(ui: &mut Ui, report: &StudyReport, axis: &Axis, serial: u64) {
     let times = Scale::of(report.points.iter().filter_map(|point| point.wall_per_s));
     let errors = Scale::of(report.points.iter().filter_map(axis.get));
     let (Some(times), Some(errors)) = (times, errors) else {

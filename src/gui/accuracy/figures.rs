@@ -6,9 +6,9 @@ use egui_extras::{Column, TableBuilder};
 use crate::gui::colors::tones;
 use crate::gui::theme::ROW_HEIGHT;
 use crate::gui::widgets::{cell, mono};
-use crate::study::{Report, Stop, row_cells, row_heads};
+use crate::study::{Stop, StudyReport, row_cells, row_heads};
 
-pub fn show(ui: &mut Ui, report: &Report) {
+pub fn show(ui: &mut Ui, report: &StudyReport) {
     let heads = row_heads();
     egui::ScrollArea::horizontal().id_salt("figures").show(ui, |ui| {
         let mut table = TableBuilder::new(ui).id_salt("study figures").striped(true);

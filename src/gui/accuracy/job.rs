@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use egui::Context;
 
 use crate::scene::Scene;
-use crate::study::{self, Control, Progress, Report, Settings};
+use crate::study::{self, Control, StudyProgress, StudyReport, StudySettings};
 
 /// A study that is going on. Dropped, it is cancelled.
 pub struct Job {
@@ -18,8 +18,8 @@ pub struct Job {
 
 struct Shared {
     cancel: AtomicBool,
-    progress: Mutex<Progress>,
-    outcome: Mutex<Option<Result<Report, String>>>,
+    progress: Mutex<StudyProgress>,
+    outcome: Mutex<Option<Result<StudyReport, String>>>,
 }
 
 /// The window follows this often; more would only cost the study time.
@@ -27,16 +27,16 @@ const REPAINT_EVERY: Duration = Duration::from_millis(100);
 
 impl Job {
     /// Starts; the window is repainted when there is something new.
-    pub fn start(ctx: &Context, scene: Arc<Scene>, name: String, settings: Settings) -> Self {
+    pub fn start(ctx: &Context, scene: Arc<Scene>, name: String, settings: StudySettings) -> Self {
         let shared = Arc::new(Shared {
             cancel: AtomicBool::new(false),
-            progress: Mutex::new(Progress { part: 0.0, what: "starting".into() }),
+            progress: Mutex::new(StudyProgress { part: 0.0, what: "starting".into() }),
             outcome: Mutex::new(None),
         });
         let (ctx, own) = (ctx.clone(), shared.clone());
         let thread = std::thread::spawn(move || {
             let mut last = Instant::now();
-            let mut report = |progress: &Progress| {
+            let mut report = |progress: &StudyProgress| {
                 lock(&own.progress).clone_from(progress);
                 if last.elapsed() >= REPAINT_EVERY {
                     last = Instant::now();
@@ -51,7 +51,7 @@ impl Job {
         Self { shared, thread }
     }
 
-    pub fn progress(&self) -> Progress {
+    pub fn progress(&self) -> StudyProgress {
         lock(&self.shared.progress).clone()
     }
 
@@ -65,7 +65,7 @@ impl Job {
     }
 
     /// The outcome, once it is there.
-    pub fn take(&self) -> Option<Result<Report, String>> {
+    pub fn take(&self) -> Option<Result<StudyReport, String>> {
         // asked first: a thread that has ended has left its outcome
         let ended = self.thread.is_finished();
         let outcome = lock(&self.shared.outcome).take();

@@ -5,7 +5,7 @@ use egui::{Grid, RichText, TextEdit, Ui};
 use crate::editor;
 use crate::gui::colors::tones;
 use crate::sim::Method;
-use crate::study::{KNOBS, Knob, Settings, SettingsError, seconds, short};
+use crate::study::{KNOBS, Knob, SettingsError, StudySettings, seconds, short};
 
 /// Knobs shown at once; the others are folded away.
 const FIRST: [&str; 4] = ["until", "dt", "tolerances", "repeat"];
@@ -21,7 +21,7 @@ pub struct Knobs {
 
 impl Default for Knobs {
     fn default() -> Self {
-        let settings = Settings::default();
+        let settings = StudySettings::default();
         let texts = KNOBS.iter().map(|knob| text_of(&settings, knob.name)).collect();
         Self { texts, methods: settings.methods }
     }
@@ -63,8 +63,8 @@ impl Knobs {
     }
 
     /// What is typed, or which knob is wrong and why.
-    pub fn settings(&self) -> Result<Settings, SettingsError> {
-        let mut settings = Settings { methods: self.methods.clone(), ..Settings::default() };
+    pub fn settings(&self) -> Result<StudySettings, SettingsError> {
+        let mut settings = StudySettings { methods: self.methods.clone(), ..StudySettings::default() };
         for (knob, text) in KNOBS.iter().zip(&self.texts) {
             set(&mut settings, knob.name, text).ok_or(SettingsError {
                 name: knob.name,
@@ -81,7 +81,7 @@ pub fn complaint(error: &SettingsError) -> String {
     format!("{label} {}", error.complaint)
 }
 
-fn text_of(settings: &Settings, name: &str) -> String {
+fn text_of(settings: &StudySettings, name: &str) -> String {
     let list = |values: &[f64], text: fn(f64) -> String| {
         values.iter().map(|value| text(*value)).collect::<Vec<_>>().join(", ")
     };
@@ -100,7 +100,7 @@ fn text_of(settings: &Settings, name: &str) -> String {
     }
 }
 
-fn set(settings: &mut Settings, name: &str, text: &str) -> Option<()> {
+fn set(settings: &mut StudySettings, name: &str, text: &str) -> Option<()> {
     let number = || editor::parse_number(text);
     let list = || -> Option<Vec<f64>> {
         text.split([',', ';'])

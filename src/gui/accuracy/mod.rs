@@ -16,7 +16,7 @@ use super::colors::tones;
 use super::context::{AppContext, Message, Shown};
 use super::widgets::severity_icon;
 use crate::scene::Scene;
-use crate::study::{self, AXES, Report};
+use crate::study::{self, AXES, StudyReport};
 
 /// Width of the column with the knobs, points.
 const KNOBS_WIDTH: f32 = 268.0;
@@ -45,7 +45,7 @@ pub struct Accuracy {
     job: Option<Job>,
     /// The scene that the job or the report is about.
     studied: Option<Arc<Scene>>,
-    report: Option<Report>,
+    report: Option<StudyReport>,
     /// Grows with every report.
     serial: u64,
     problem: Option<String>,
@@ -192,7 +192,7 @@ impl Accuracy {
             Export::Csv => study::csv(report),
             Export::Svg => study::svg(report).map_err(|error| error.to_string())?,
         };
-        std::fs::write(path, text).map_err(|error| format!("can't write {}: {error}", path.display()))
+        std::fs::write(path, text).map_err(|error| format!("cannot write {}: {error}", path.display()))
     }
 }
 
@@ -226,7 +226,7 @@ fn axis_menu(ui: &mut Ui, current: usize) -> usize {
     chosen
 }
 
-fn export_buttons(ui: &mut Ui, context: &AppContext<'_>, report: &Report) {
+fn export_buttons(ui: &mut Ui, context: &AppContext<'_>, report: &StudyReport) {
     let exports = [
         (Export::Csv, "Export CSV…", "All figures, full digits, for a spreadsheet"),
         (Export::Svg, "Export SVG…", "All diagrams as one picture"),

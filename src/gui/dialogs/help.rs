@@ -40,7 +40,7 @@ const WINDOW: [(&str, &str); 7] = [
     ),
     (
         "Problems",
-        "What is wrong with the file or the scene, with line and column, and a button where there is a way out.",
+        "What is wrong with the file or the scene, with line and column, and a button where there is a fix.",
     ),
 ];
 
@@ -48,7 +48,7 @@ const GESTURES: [(&str, &str); 11] = [
     ("Click", "Select; again at the same place: what lies behind"),
     ("Ctrl or Shift + click", "Add to the selection or take out"),
     ("Drag", "Select by a rectangle"),
-    ("Drag a body", "Move it, in views along an axis; static bodies when selected. Esc gives up"),
+    ("Drag a body", "Move it, in views along an axis; static bodies when selected. Esc cancels"),
     ("Middle or right drag", "Turn a perspective view, move a view along an axis"),
     ("Shift + middle drag", "Move the view"),
     ("Wheel", "Magnify at the pointer"),

@@ -23,7 +23,7 @@ impl Palette {
         let modal = Modal::new(Id::unique("command palette")).area(area).show(ctx, |ui| {
             ui.set_width(520.0);
             let edit = TextEdit::singleline(&mut self.query)
-                .hint_text("Type a part of a command, sample, file or overlay")
+                .hint_text("Type part of the name of a command, sample, file or overlay")
                 .desired_width(f32::INFINITY);
             let response = ui.add(edit).accessible_name("Search commands");
             if !std::mem::replace(&mut self.started, true) {
@@ -68,7 +68,7 @@ impl Palette {
 fn list(ui: &mut egui::Ui, found: &[PaletteEntry], chosen: usize, scroll: bool) -> Option<usize> {
     let mut clicked = None;
     if found.is_empty() {
-        ui.label(RichText::new("Nothing is called that.").color(tones(ui).weak));
+        ui.label(RichText::new("Nothing has that name.").color(tones(ui).weak));
     }
     ScrollArea::vertical().max_height(340.0).auto_shrink([false, true]).show(ui, |ui| {
         for (index, entry) in found.iter().enumerate() {

@@ -92,7 +92,7 @@ impl PathDialog {
         ui.horizontal(|ui| {
             let parent = self.folder.parent().map(Path::to_owned);
             let up = ui.add_enabled(parent.is_some(), egui::Button::new("⬆"));
-            let up = up.on_hover_text("To the folder above").accessible_name("Folder above");
+            let up = up.on_hover_text("To the parent folder").accessible_name("Folder above");
             if let Some(parent) = parent.filter(|_| up.clicked()) {
                 self.enter(parent);
             }

@@ -112,7 +112,7 @@ fn is_discarded(ui: &Ui, id: Id, is_typing: bool) -> bool {
 }
 
 impl Number<'_> {
-    /// What was typed, or why it can't be taken.
+    /// What was typed, or why it cannot be taken.
     fn read(&self, text: &str) -> Result<f64, String> {
         let (text, name) = (text.trim(), self.name.to_lowercase());
         if text.is_empty() {
@@ -120,13 +120,13 @@ impl Number<'_> {
         }
         let value = if self.angle { parse_angle(text) } else { parse_number(text) };
         let tries = if self.angle { "0.5, pi/6 or 30°" } else { "0.5, 1/60 or 2*3" };
-        let value = value.ok_or_else(|| format!("“{text}” is no number that can be used: try {tries}"))?;
+        let value = value.ok_or_else(|| format!("“{text}” is not a number that can be used: try {tries}"))?;
         if !allows(self.range, value) {
             let limits = limits(self.range).unwrap_or_default();
             return Err(format!("{text} is out of range: the {name} {limits}"));
         }
         if self.whole && value.fract() != 0.0 {
-            return Err(format!("{text} is no whole number: the {name} can't be a fraction"));
+            return Err(format!("{text} is not a whole number: the {name} cannot be a fraction"));
         }
         Ok(value)
     }

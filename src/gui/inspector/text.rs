@@ -47,7 +47,7 @@ impl TextFields {
     }
 }
 
-/// Reads a typed UserID, or says why it is none.
+/// Reads a typed UserID, or the reason why it is not one.
 pub fn user_id(text: &str) -> Result<i64, String> {
-    text.parse().map_err(|_| format!("“{text}” is no UserID: it must be a whole number, such as 17"))
+    text.parse().map_err(|_| format!("“{text}” is not a UserID: it must be a whole number, such as 17"))
 }

@@ -206,7 +206,7 @@ struct Looks<'a> {
     marks: Marks,
 }
 
-/// What stands before a name: a shape that tells the kind, in the colour of the views.
+/// What stands before a name: a shape that shows the kind, in the colour of the views.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Chip {
     None,

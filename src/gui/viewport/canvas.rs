@@ -43,7 +43,7 @@ impl Canvas {
         self.gpu.as_ref().map_or(0, |gpu| gpu.redraws.load(Ordering::Relaxed))
     }
 
-    /// Puts a view's picture and labels at `rect`. `view` tells the views apart.
+    /// Puts a view's picture and labels at `rect`. `view` distinguishes the views.
     pub fn draw(&self, ui: &Ui, view: usize, rect: Rect, list: &Arc<DrawList>) {
         let painter = ui.painter_at(rect);
         let [top, _] = list.background;

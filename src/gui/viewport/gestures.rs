@@ -21,7 +21,7 @@ const ZOOM_PER_POINT: f64 = 0.0035;
 /// Clicks this near to the last one go on to what lies below, points.
 const SAME_PLACE: f32 = 4.0;
 
-/// First of the numbers that tell drags in views from other gestures.
+/// First of the numbers that distinguish drags in views from other gestures.
 const DRAG_GESTURE: u64 = 0x6472_6167_0000;
 
 /// What goes on in one view.
@@ -321,7 +321,7 @@ impl Pane {
         let snapping = if scenery.snapping { " · snapping" } else { "" };
         let place = moving.drag.origin() + moving.offset;
         let text = format!(
-            "to {} m\nby {} m{snapping} · Esc gives up, Ctrl switches snapping",
+            "to {} m\nby {} m{snapping} · Esc cancels, Ctrl switches snapping",
             triple(place),
             triple(moving.offset)
         );

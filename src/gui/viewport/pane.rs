@@ -152,7 +152,7 @@ pub fn nothing_to_show(ui: &mut Ui, area: Rect, context: &AppContext<'_>) {
     ui.painter().rect_filled(area, 0.0, ui.visuals().panel_fill);
     let center = area.center();
     let font = FontId::proportional(16.0);
-    let text = format!("{} can't be shown: the file has errors", context.session.title());
+    let text = format!("{} cannot be shown: the file has errors", context.session.title());
     ui.painter().text(center, Align2::CENTER_BOTTOM, text, font, tones.error);
     let below = Rect::from_center_size(center + egui::vec2(0.0, 24.0), egui::vec2(180.0, 26.0));
     if ui.put(below, egui::Button::new("Show the problems")).clicked() {

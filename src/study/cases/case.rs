@@ -18,7 +18,7 @@ pub struct Demand {
     pub name: &'static str,
     /// Empty where dimensionless.
     pub unit: &'static str,
-    /// The largest value allowed; infinite for what is told for orientation only.
+    /// The largest value allowed; infinite for what is reported for orientation only.
     pub limit: f64,
 }
 
@@ -60,7 +60,7 @@ impl Figure {
 
 /// What came of a case at one Δt.
 #[derive(Clone, Debug)]
-pub struct Outcome {
+pub struct CaseResult {
     /// s.
     pub dt: f64,
     /// In the order of the case's demands.
@@ -69,14 +69,14 @@ pub struct Outcome {
     pub stopped: Option<String>,
 }
 
-impl Outcome {
+impl CaseResult {
     pub fn held(&self) -> bool {
         self.figures.iter().all(Figure::held)
     }
 }
 
 /// Runs a case in steps of Δt and measures its figures.
-pub fn measure(case: &Case, dt: f64) -> Outcome {
+pub fn measure(case: &Case, dt: f64) -> CaseResult {
     let measured =
         scene_of(case.source).and_then(|scene| (case.run)(&Trial { scene, dt, budget: case.budget }));
     let (values, stopped) = match measured {
@@ -85,7 +85,7 @@ pub fn measure(case: &Case, dt: f64) -> Outcome {
     };
     let padded = values.into_iter().chain(std::iter::repeat(f64::NAN));
     let figures = case.demands.iter().zip(padded).map(|(&demand, value)| Figure { demand, value }).collect();
-    Outcome { dt, figures, stopped }
+    CaseResult { dt, figures, stopped }
 }
 
 pub(super) fn scene_of(source: Source) -> Result<Scene, Stop> {
@@ -112,6 +112,6 @@ pub(super) const fn at_most(limit: f64, unit: &'static str, name: &'static str) 
 }
 
 /// A figure for orientation, of which nothing is demanded.
-pub(super) const fn told(unit: &'static str, name: &'static str) -> Demand {
+pub(super) const fn reported(unit: &'static str, name: &'static str) -> Demand {
     Demand { name, unit, limit: f64::INFINITY }
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::case::{Case, SMALL_BUDGET, at_most, file, told};
+use super::case::{Case, SMALL_BUDGET, at_most, file, reported};
 use super::monitor::Monitor;
 use super::trial::{Stop, Trial, state_of};
 use crate::sim::EventKind;
@@ -19,7 +19,7 @@ pub(super) const WEDGE: Case = Case {
         at_most(0.0, "m", "moved in the next 100 s"),
         at_most(1e-9, "m", "overlap"),
         at_most(1e-12, "", "energy gained, relative"),
-        told("", "events"),
+        reported("", "events"),
     ],
     budget: SMALL_BUDGET,
     long: false,

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::case::{Case, SMALL_BUDGET, Source, at_most, file, scene_of, told};
+use super::case::{Case, SMALL_BUDGET, Source, at_most, file, reported, scene_of};
 use super::trial::{Stop, Trial, states};
 use crate::scene::{ForceKind, Scene};
 use crate::sim::EventKind;
@@ -17,8 +17,8 @@ pub(super) const FAR: Case = Case {
     demands: &[
         at_most(0.0, "", "events that differ in kind or order"),
         at_most(1.2, "", "exponent with which the error grows with the distance"),
-        told("", "positions off, in spacings of numbers at 1e5 m"),
-        told("s", "event times off"),
+        reported("", "positions off, in spacings of numbers at 1e5 m"),
+        reported("s", "event times off"),
     ],
     budget: SMALL_BUDGET,
     long: false,

@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::case::{Case, SMALL_BUDGET, at_most, file};
 use super::trial::{Stop, Trial, state_of};
 use crate::scene::Motion;
+use crate::study::closed_form::{self, FallInAir};
 
 pub(super) const THROW: Case = Case {
     number: 1,
@@ -35,8 +36,7 @@ fn throw(trial: &Trial) -> Result<Vec<f64>, Stop> {
         sim.begin(t);
         sim.finish(&mut |_, _| {})?;
         let state = state_of(&sim, 1)?;
-        let position = start + thrown * t + 0.5 * gravity * t * t;
-        let velocity = thrown + gravity * t;
+        let (position, velocity) = closed_form::throw(start, thrown, gravity, t);
         off[0] = off[0].max((state.position - position).length() / position.length());
         off[1] = off[1].max((state.velocity - velocity).length() / velocity.length());
     }
@@ -57,7 +57,6 @@ pub(super) const DRAG: Case = Case {
 };
 
 fn drag(trial: &Trial) -> Result<Vec<f64>, Stop> {
-    const GRAVITY: f64 = 9.8;
     let mut sim = trial.start()?;
     let mut off = [0.0_f64; 2];
     // The heavy ball is on the floor at 3.8 s, the light one at 9.1 s.
@@ -67,14 +66,9 @@ fn drag(trial: &Trial) -> Result<Vec<f64>, Stop> {
             for &id in ids {
                 let state = state_of(sim, id)?;
                 let mass = if id == 2 { 0.05 } else { 2.0 };
-                // m g = ½ C ρ π r² v∞² with C = 0.5, ρ = 1.276, r = 0.1
-                let area = std::f64::consts::PI * 0.01;
-                let terminal = (2.0 * mass * GRAVITY / (0.5 * 1.276 * area)).sqrt();
-                let x = GRAVITY * t / terminal;
-                let speed = terminal * libm::tanh(x);
-                let fallen = terminal * terminal / GRAVITY * libm::log(libm::cosh(x));
-                off[0] = off[0].max((-state.velocity.y / speed - 1.0).abs());
-                off[1] = off[1].max(((60.0 - state.position.y) / fallen - 1.0).abs());
+                let fall = FallInAir::new(9.8, mass, 0.1, 1.276);
+                off[0] = off[0].max((-state.velocity.y / fall.speed(t) - 1.0).abs());
+                off[1] = off[1].max(((60.0 - state.position.y) / fall.fallen(t) - 1.0).abs());
             }
             Ok(())
         })?;

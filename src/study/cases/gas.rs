@@ -4,18 +4,18 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::DVec3;
 
-use super::case::{Case, Demand, Source, at_most, file, told};
+use super::case::{Case, Demand, Source, at_most, file, reported};
 use super::monitor::Monitor;
-use super::random::Random;
 use super::trial::{Stop, Trial};
 use crate::scene::{Body, Map, Motion, NodeKey, Scene, Shape, SimParams};
 use crate::sim::BodyRef;
+use crate::study::Random;
 
 const DEMANDS: &[Demand] = &[
     at_most(1e-10, "", "energy off, relative"),
     at_most(1e-9, "", "overlap over the radius"),
-    told("", "ball-ball impacts over Enskog's bulk rate"),
-    told("", "impacts"),
+    reported("", "ball-ball impacts over Enskog's bulk rate"),
+    reported("", "impacts"),
 ];
 
 const GAS: Case = Case {

@@ -6,10 +6,11 @@ use super::case::{Case, SMALL_BUDGET, at_most, file};
 use super::monitor::Monitor;
 use super::trial::{Stop, Trial, state_of};
 use crate::sim::{BodyRef, Event, EventKind, Simulation};
+use crate::study::closed_form::{Bounces, touch_beyond_edge};
 
 /// The ball of `bounce.xml` and `rest.xml` falls 4.5 m before it first touches the floor.
-fn first_fall() -> f64 {
-    (2.0 * 4.5 / 9.8_f64).sqrt()
+fn bounces(restitution: f64) -> Bounces {
+    Bounces::dropped(4.5, 9.8, restitution)
 }
 
 pub(super) const ELASTIC_BOUNCE: Case = Case {
@@ -34,17 +35,17 @@ fn elastic_bounce(trial: &Trial) -> Result<Vec<f64>, Stop> {
     const UNTIL: f64 = 20.0;
     let mut sim = trial.start()?;
     let mut monitor = Monitor::new(&trial.scene, &sim)?;
-    let (mut count, mut off) = (0.0, 0.0_f64);
+    let (bounces, mut count, mut off) = (bounces(1.0), 0, 0.0_f64);
     trial.watch(&mut sim, UNTIL, |sim, event| {
         monitor.look(sim, event);
         if let Some(event) = event {
-            off = off.max((event.time - (2.0 * count + 1.0) * first_fall()).abs());
-            count += 1.0;
+            off = off.max((event.time - bounces.impact_time(count)).abs());
+            count += 1;
         }
         Ok(())
     })?;
-    let expected = ((UNTIL / first_fall() + 1.0) / 2.0).floor();
-    Ok(vec![(count - expected).abs(), off, monitor.energy_drift, monitor.worst_overlap])
+    let wrong = (f64::from(count) - bounces.elastic_count(UNTIL)).abs();
+    Ok(vec![wrong, off, monitor.energy_drift, monitor.worst_overlap])
 }
 
 pub(super) const LOSSY_BOUNCE: Case = Case {
@@ -67,23 +68,21 @@ pub(super) const LOSSY_BOUNCE: Case = Case {
 };
 
 fn lossy_bounce(trial: &Trial) -> Result<Vec<f64>, Stop> {
-    let restitution = 0.8;
+    let bounces = bounces(0.8);
     let mut sim = trial.start()?;
     let mut monitor = Monitor::new(&trial.scene, &sim)?;
-    let mut expected = first_fall();
-    let mut flight = 2.0 * first_fall();
+    let mut count = 0;
     let (mut off, mut rest_off, mut residual) = (0.0_f64, f64::NAN, 0.0_f64);
     trial.watch(&mut sim, 10.0, |sim, event| {
         monitor.look(sim, event);
         residual = residual.max(sim.energy().residual.unwrap_or(f64::NAN).abs());
         match event {
             Some(event) if event.kind == EventKind::Impact => {
-                off = off.max((event.time - expected).abs());
-                flight *= restitution;
-                expected += flight;
+                off = off.max((event.time - bounces.impact_time(count)).abs());
+                count += 1;
             }
             Some(event) if event.kind == EventKind::Rest => {
-                rest_off = (event.time - 9.0 * first_fall()).abs();
+                rest_off = (event.time - bounces.end()).abs();
             }
             _ => {}
         }
@@ -146,11 +145,13 @@ fn bullets(trial: &Trial) -> Result<Vec<f64>, Stop> {
         };
         found += 1;
         let (sin, cos) = libm::sincos(degrees.to_radians());
-        let depth = (RADIUS * RADIUS - dy * dy - dz * dz).sqrt();
-        // Normal from the plate to the ball, and where the centre is when they touch.
-        let normal =
-            if degrees < 90.0 { DVec3::new(-sin, 0.0, -cos) } else { DVec3::new(-depth, dy, dz) / RADIUS };
-        let x = 10.0 - if degrees < 90.0 { RADIUS / sin } else { depth };
+        // How far before the plate's middle the centre is when they touch, and the normal from plate to ball.
+        let (before, normal) = if degrees < 90.0 {
+            (RADIUS / sin, DVec3::new(-sin, 0.0, -cos))
+        } else {
+            touch_beyond_edge(RADIUS, [dy, dz])
+        };
+        let x = 10.0 - before;
         off = off.max((SPEED * event.time - (x - 1.0)).abs() * normal.x.abs());
         let expected = DVec3::X * SPEED - 2.0 * SPEED * normal.x * normal;
         turned_off = turned_off.max((state_of(sim, id)?.velocity - expected).length() / SPEED);

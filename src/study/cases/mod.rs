@@ -3,7 +3,6 @@
 
 mod case;
 mod monitor;
-mod random;
 mod table;
 mod trial;
 
@@ -22,7 +21,7 @@ mod rack;
 mod reversal;
 mod stacks;
 
-pub use case::{Case, Demand, Figure, Outcome, Source, measure};
+pub use case::{Case, CaseResult, Demand, Figure, Source, measure};
 pub use table::{STEPS, markdown, text};
 
 /// All hard cases, in the order of their numbers: one line each.

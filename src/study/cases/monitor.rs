@@ -1,18 +1,17 @@
-//! Looks at all pairs of a running simulation with the reference's geometry, and adds up its energy, without
-//! asking the core for either.
+//! Watches the overlaps of a running simulation and adds up its energy, without asking the core for either.
 
 use glam::DVec3;
 
 use super::trial::{Stop, states};
 use crate::scene::{Force, ForceKind, Motion, Scene};
 use crate::sim::{BodyRef, BodyState, Event, Simulation};
-use crate::study::reference::geometry::{Surface, dynamic_radius, sphere_gap};
+use crate::study::OverlapMonitor;
 
 /// Watches a scene that is not edited while it runs.
 pub(super) struct Monitor {
-    /// Radius and mass of each dynamic body, in UserID order, as the simulation lists them.
-    balls: Vec<(f64, f64)>,
-    statics: Vec<Surface>,
+    overlaps: OverlapMonitor,
+    /// Mass of each dynamic body, kg, in UserID order, as the simulation lists them.
+    masses: Vec<f64>,
     forces: Vec<Force>,
     start_energy: f64,
     /// |E₀|, or the kinetic energy at the start if that is larger.
@@ -36,17 +35,13 @@ impl Monitor {
     pub(super) fn new(scene: &Scene, sim: &Simulation) -> Result<Self, Stop> {
         let mut bodies: Vec<_> = scene.bodies.iter().collect();
         bodies.sort_by_key(|body| body.id);
-        let mut balls = Vec::new();
-        let mut statics = Vec::new();
-        for body in bodies {
-            match (body.motion, dynamic_radius(body)) {
-                (Motion::Dynamic { mass, .. }, Some(radius)) => balls.push((radius, mass)),
-                _ => statics.extend(Surface::of(body)),
-            }
-        }
+        let masses = bodies.iter().filter_map(|body| match body.motion {
+            Motion::Dynamic { mass, .. } => Some(mass),
+            Motion::Static => None,
+        });
         let mut monitor = Self {
-            balls,
-            statics,
+            overlaps: OverlapMonitor::in_id_order(scene),
+            masses: masses.collect(),
             forces: scene.forces.clone(),
             start_energy: 0.0,
             scale: 0.0,
@@ -55,7 +50,7 @@ impl Monitor {
             energy_gain: 0.0,
         };
         let states = states(sim);
-        if states.len() != monitor.balls.len() {
+        if states.len() != monitor.masses.len() {
             return Err(Stop::Unexpected("a body got lost".into()));
         }
         let (kinetic, potential) = monitor.energy(&states);
@@ -67,55 +62,25 @@ impl Monitor {
     /// Looks at the simulation now.
     pub(super) fn look(&mut self, sim: &Simulation, event: Option<&Event>) {
         match event {
-            Some(event) if self.balls.len() > LARGE && event.seq % STRIDE != 0 => {}
-            Some(event) if self.balls.len() > SMALL => {
+            Some(event) if self.masses.len() > LARGE && event.seq % STRIDE != 0 => {}
+            Some(event) if self.masses.len() > SMALL => {
+                let positions = positions(&states(sim));
                 for body in [Some(event.a), event.b].into_iter().flatten() {
-                    self.look_around(sim, body);
+                    if let BodyRef::Dynamic(index) = body {
+                        self.note(self.overlaps.worst_of(index as usize, &positions));
+                    }
                 }
             }
             _ => {
                 let states = states(sim);
-                self.look_at_all(&states);
+                self.note(self.overlaps.worst(&positions(&states)));
                 self.weigh(&states);
             }
         }
     }
 
-    /// A body against all others.
-    fn look_around(&mut self, sim: &Simulation, body: BodyRef) {
-        let (BodyRef::Dynamic(index), Some(own)) = (body, sim.state(body)) else { return };
-        let radius = self.balls.get(index as usize).map_or(0.0, |ball| ball.0);
-        let others = sim.dynamic_bodies().zip(&self.balls).filter(|(other, _)| *other != body);
-        let gaps = others.filter_map(|(other, ball)| {
-            sim.state(other).map(|state| sphere_gap(own.position, radius, state.position, ball.0).distance)
-        });
-        let nearest = gaps.fold(f64::INFINITY, f64::min);
-        self.note(nearest);
-        self.look_at_statics(own.position, radius);
-    }
-
-    fn look_at_all(&mut self, states: &[BodyState]) {
-        // Sorted along x, a pair farther apart in x than the two largest balls can be skipped with all after it.
-        let mut sorted: Vec<(DVec3, f64)> =
-            states.iter().zip(&self.balls).map(|(state, ball)| (state.position, ball.0)).collect();
-        sorted.sort_by(|left, right| left.0.x.total_cmp(&right.0.x));
-        let widest = self.balls.iter().map(|ball| ball.0).fold(0.0, f64::max);
-        for (index, &(a, radius)) in sorted.iter().enumerate() {
-            for &(b, other) in sorted[index + 1..].iter().take_while(|(b, _)| b.x - a.x <= radius + widest) {
-                self.note(sphere_gap(a, radius, b, other).distance);
-            }
-            self.look_at_statics(a, radius);
-        }
-    }
-
-    fn look_at_statics(&mut self, position: DVec3, radius: f64) {
-        let nearest = self.statics.iter().map(|surface| surface.gap(position, radius).distance);
-        let nearest = nearest.fold(f64::INFINITY, f64::min);
-        self.note(nearest);
-    }
-
-    fn note(&mut self, distance: f64) {
-        self.worst_overlap = self.worst_overlap.max(-distance);
+    fn note(&mut self, overlap: f64) {
+        self.worst_overlap = self.worst_overlap.max(overlap);
     }
 
     fn weigh(&mut self, states: &[BodyState]) {
@@ -131,12 +96,16 @@ impl Monitor {
     /// Kinetic and potential energy, J. Drag has no potential: it only takes.
     fn energy(&self, states: &[BodyState]) -> (f64, f64) {
         let mut energy = (0.0, 0.0);
-        for (state, &(_, mass)) in states.iter().zip(&self.balls) {
+        for (state, mass) in states.iter().zip(&self.masses) {
             energy.0 += 0.5 * mass * state.velocity.length_squared();
             energy.1 += mass * self.forces.iter().map(|force| potential(force, state.position)).sum::<f64>();
         }
         energy
     }
+}
+
+fn positions(states: &[BodyState]) -> Vec<DVec3> {
+    states.iter().map(|state| state.position).collect()
 }
 
 /// Potential energy of a unit mass, J/kg.

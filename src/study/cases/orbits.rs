@@ -4,17 +4,18 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::case::{Case, Demand, SMALL_BUDGET, at_most, file, told};
+use super::case::{Case, Demand, SMALL_BUDGET, at_most, file, reported};
 use super::monitor::Monitor;
 use super::trial::{Stop, Trial, state_of};
 use crate::scene::{ForceKind, Motion, Scene};
 use crate::sim::{EventKind, SimEdit};
-use crate::study::reference::{Reference, Settings};
+use crate::study::closed_form::{Ellipse, Plunge};
+use crate::study::reference::{Reference, ReferenceSettings};
 
 const DEMANDS: &[Demand] = &[
     at_most(1e-9, "", "energy off, relative"),
     at_most(1e-6, "", "position off, in semi-axes"),
-    told("", "force evaluations per orbit"),
+    reported("", "force evaluations per orbit"),
 ];
 
 /// The attractor of all three scenes.
@@ -31,11 +32,7 @@ pub(super) const ELLIPSE: Case = Case {
     budget: SMALL_BUDGET,
     long: false,
     run: |trial| {
-        ellipse(
-            trial,
-            &Orbit { axis: 2.5, eccentricity: 0.6, intensity: 10.0, towards: 1.0, phase: 0.0 },
-            100.0,
-        )
+        ellipse(trial, Ellipse { axis: 2.5, eccentricity: 0.6, intensity: 10.0, phase: 0.0 }, 1.0, 100.0)
     },
 };
 
@@ -45,61 +42,23 @@ pub(super) const COMET: Case = Case {
     peers: "",
     source: file!("hard/kepler-comet"),
     run: |trial| {
-        ellipse(
-            trial,
-            &Orbit { axis: 2.0, eccentricity: 0.99, intensity: 10.0, towards: -1.0, phase: PI },
-            10.0,
-        )
+        ellipse(trial, Ellipse { axis: 2.0, eccentricity: 0.99, intensity: 10.0, phase: PI }, -1.0, 10.0)
     },
     ..ELLIPSE
 };
 
-/// An ellipse in the xz plane, which begins with a velocity along z.
-struct Orbit {
-    axis: f64,
-    eccentricity: f64,
-    intensity: f64,
-    /// +1 when the periapsis lies towards +x, −1 towards −x.
-    towards: f64,
-    /// Mean anomaly at the start.
-    phase: f64,
-}
-
-impl Orbit {
-    fn period(&self) -> f64 {
-        2.0 * PI * (self.axis * self.axis * self.axis / self.intensity).sqrt()
-    }
-
-    /// Kepler's equation M = E − e sin E by bisection.
-    fn position(&self, t: f64) -> DVec3 {
-        let turns = t / self.period();
-        let mean = self.phase + 2.0 * PI * (turns - turns.floor());
-        let e = self.eccentricity;
-        let anomaly = rising_root(mean - e, mean + e, |guess| guess - e * libm::sin(guess) - mean);
-        let (sin, cos) = libm::sincos(anomaly);
-        let along = self.axis * (cos - e);
-        let across = self.axis * (1.0 - e * e).sqrt() * sin;
-        CENTER + DVec3::new(self.towards * along, 0.0, -across)
-    }
-}
-
-/// Where a rising function goes through zero.
-fn rising_root(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
-    for _ in 0..100 {
-        let middle = 0.5 * (low + high);
-        if f(middle) < 0.0 { low = middle } else { high = middle }
-    }
-    high
-}
-
-fn ellipse(trial: &Trial, orbit: &Orbit, rounds: f64) -> Result<Vec<f64>, Stop> {
+/// An orbit in the xz plane around the attractor, which begins with a velocity along z; its periapsis lies
+/// `towards` +x or −x.
+fn ellipse(trial: &Trial, orbit: Ellipse, towards: f64, rounds: f64) -> Result<Vec<f64>, Stop> {
     let mut sim = trial.start()?;
     let mut monitor = Monitor::new(&trial.scene, &sim)?;
     let id = moving_id(&trial.scene)?;
     let mut off = 0.0_f64;
     trial.watch(&mut sim, rounds * orbit.period(), |sim, event| {
         monitor.look(sim, event);
-        off = off.max((state_of(sim, id)?.position - orbit.position(sim.time())).length() / orbit.axis);
+        let [along, across] = orbit.offset(sim.time());
+        let expected = CENTER + DVec3::new(towards * along, 0.0, -across);
+        off = off.max((state_of(sim, id)?.position - expected).length() / orbit.axis);
         Ok(())
     })?;
     Ok(vec![monitor.energy_drift, off, sim.counters().force_evaluations as f64 / rounds])
@@ -128,31 +87,26 @@ pub(super) const PLUNGE: Case = Case {
 };
 
 fn plunge(trial: &Trial) -> Result<Vec<f64>, Stop> {
-    const HEIGHT: f64 = 2.0;
+    const PLUNGE: Plunge = Plunge { distance: 2.0, intensity: 10.0 };
     const UNTIL: f64 = 20.0;
     let mut sim = trial.start()?;
     let mut monitor = Monitor::new(&trial.scene, &sim)?;
-    // r = ½d(1 + cos η), t = √(d³/8G)(η + sin η): in the centre at η = π.
-    let unit = (HEIGHT * HEIGHT * HEIGHT / 80.0).sqrt();
-    let (mut passes, mut time_off, mut off) = (0.0, 0.0_f64, 0.0_f64);
+    let (mut passes, mut time_off, mut off) = (0, 0.0_f64, 0.0_f64);
     trial.watch(&mut sim, UNTIL, |sim, event| {
         if let Some(event) = event {
             if event.kind == EventKind::SingularPass {
-                time_off = time_off.max((event.time - (2.0 * passes + 1.0) * PI * unit).abs());
-                passes += 1.0;
+                time_off = time_off.max((event.time - PLUNGE.pass_time(passes)).abs());
+                passes += 1;
             }
             return Ok(());
         }
         monitor.look(sim, None);
-        let turns = sim.time() / (2.0 * PI * unit);
-        let mean = 2.0 * PI * (turns - turns.floor());
-        let eta = rising_root(0.0, 2.0 * PI, |guess| guess + libm::sin(guess) - mean);
-        let expected = CENTER + DVec3::X * (0.5 * HEIGHT * (1.0 + libm::cos(eta)));
+        let expected = CENTER + DVec3::X * PLUNGE.offset(sim.time());
         off = off.max((state_of(sim, moving_id(&trial.scene)?)?.position - expected).length());
         Ok(())
     })?;
-    let expected = (UNTIL / (2.0 * PI * unit) + 0.5).floor();
-    Ok(vec![(passes - expected).abs(), time_off, off / (0.5 * HEIGHT), monitor.energy_drift])
+    let wrong = (f64::from(passes) - PLUNGE.pass_count(UNTIL)).abs();
+    Ok(vec![wrong, time_off, off / (0.5 * PLUNGE.distance), monitor.energy_drift])
 }
 
 pub(super) const SWITCHED: Case = Case {
@@ -177,7 +131,8 @@ fn switched(trial: &Trial) -> Result<Vec<f64>, Stop> {
     let (mut off, mut residual) = (0.0_f64, 0.0_f64);
     // Near the first periapsis the comet is 1 m off the centre at 1.8 s: there the pull becomes a push.
     for (duration, intensity) in [(1.8, -10.0), (0.25, 10.0), (1.0, -2.5), (1.0, 10.0), (2.0, 10.0)] {
-        let mut reference = Reference::new(&scene, Settings::check()).map_err(|error| unexpected(&error))?;
+        let mut reference =
+            Reference::new(&scene, ReferenceSettings::check()).map_err(|error| unexpected(&error))?;
         reference.impacts(duration).map_err(|error| unexpected(&error))?;
         let until = sim.time() + duration;
         trial.watch(&mut sim, until, |sim, _| {

@@ -4,10 +4,10 @@ use glam::DVec3;
 
 use super::case::{Case, SMALL_BUDGET, at_most, file};
 use super::monitor::Monitor;
-use super::random::Random;
 use super::trial::{Stop, Trial, states};
 use crate::scene::{Body, Scene};
 use crate::sim::{BodyState, Simulation};
+use crate::study::Random;
 
 pub(super) const BILLIARD: Case = Case {
     number: 5,
@@ -52,7 +52,7 @@ fn billiard(trial: &Trial) -> Result<Vec<f64>, Stop> {
     let mut later = 0.0_f64;
     trial.watch(&mut sim, touch + 0.1, |sim, event| {
         monitor.look(sim, event);
-        // Between the mirror images of one impact the rest of its group has still to be told.
+        // Between the mirror images of one impact the rest of its group is still to be reported.
         if event.is_none() {
             later = later.max(asymmetry(sim, &pairs));
         }

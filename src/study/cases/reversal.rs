@@ -3,11 +3,11 @@
 
 use glam::DVec3;
 
-use super::case::{Case, SMALL_BUDGET, at_most, file, told};
-use super::random::Random;
+use super::case::{Case, SMALL_BUDGET, at_most, file, reported};
 use super::trial::{Stop, Trial, states};
 use crate::scene::{Motion, Scene};
 use crate::sim::BodyState;
+use crate::study::Random;
 
 pub(super) const REVERSAL: Case = Case {
     number: 20,
@@ -18,8 +18,8 @@ pub(super) const REVERSAL: Case = Case {
     source: file!("gas"),
     demands: &[
         at_most(0.2, "", "slope of ln(error of the return) off λ, relative"),
-        told("1/s", "λ, of a disturbance"),
-        told("m", "error of the return at λT = 18"),
+        reported("1/s", "λ, of a disturbance"),
+        reported("m", "error of the return at λT = 18"),
     ],
     budget: SMALL_BUDGET,
     long: false,

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::case::{Case, Demand, SMALL_BUDGET, at_most, file, told};
+use super::case::{Case, Demand, SMALL_BUDGET, at_most, file, reported};
 use super::monitor::Monitor;
 use super::trial::{Stop, Trial, states};
 
@@ -11,13 +11,13 @@ const DEMANDS: &[Demand] = &[
     at_most(1e-9, "m", "moved in the next 5 s"),
     at_most(1e-8, "m", "overlap"),
     at_most(1e-12, "", "energy gained, relative"),
-    told("", "events"),
+    reported("", "events"),
 ];
 
 pub(super) const STACK_2: Case = Case {
     number: 15,
     id: "stack-2",
-    title: "Two balls come to stand on each other, e = 0.5",
+    title: "Two balls come to rest on each other, e = 0.5",
     reference: "statics",
     peers: "",
     source: file!("hard/stack-2"),
@@ -29,7 +29,7 @@ pub(super) const STACK_2: Case = Case {
 
 pub(super) const STACK_3: Case = Case {
     id: "stack-3",
-    title: "Three balls come to stand on each other, e = 0",
+    title: "Three balls come to rest on each other, e = 0",
     source: file!("hard/stack-3"),
     ..STACK_2
 };

@@ -2,18 +2,18 @@
 
 use std::fmt::Write as _;
 
-use super::case::{Case, Figure, Outcome};
+use super::case::{Case, CaseResult, Figure};
 
 /// The Δt at which every figure is demanded, s.
 pub const STEPS: [(f64, &str); 3] = [(1.0, "1 s"), (1.0 / 60.0, "1/60 s"), (1e-4, "0.1 ms")];
 
 /// A figure at each Δt, as the columns of a table show it.
-fn columns(outcomes: &[Outcome], index: usize) -> impl Iterator<Item = &Figure> {
+fn columns(outcomes: &[CaseResult], index: usize) -> impl Iterator<Item = &Figure> {
     outcomes.iter().filter_map(move |outcome| outcome.figures.get(index))
 }
 
 /// One line per figure of a case.
-pub fn text(case: &Case, outcomes: &[Outcome]) -> String {
+pub fn text(case: &Case, outcomes: &[CaseResult]) -> String {
     let mut text = format!("{:>2}  {} ({})\n", case.number, case.title, case.id);
     for (index, demand) in case.demands.iter().enumerate() {
         let values: Vec<String> =
@@ -40,7 +40,7 @@ pub fn text(case: &Case, outcomes: &[Outcome]) -> String {
 }
 
 /// A Markdown table of all cases given.
-pub fn markdown(cases: &[(&Case, Vec<Outcome>)]) -> String {
+pub fn markdown(cases: &[(&Case, Vec<CaseResult>)]) -> String {
     let steps: Vec<String> = STEPS.iter().map(|(_, name)| format!("Δt {name}")).collect();
     let mut text = format!("| # | case and figure | demanded | {} |\n| --- | --- | --- |", steps.join(" | "));
     text.push_str(&" --- |".repeat(STEPS.len()));

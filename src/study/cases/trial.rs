@@ -1,9 +1,9 @@
 //! Drives the scene of a case in steps of Δt, looks at it at every event and at random times between, and
 //! gives up on a run that no longer gets anywhere.
 
-use super::random::Random;
 use crate::scene::Scene;
 use crate::sim::{BodyState, Event, Fault, Progress, Simulation};
+use crate::study::Random;
 
 /// Why a case could not be run to its end.
 #[derive(Clone, Debug, thiserror::Error)]

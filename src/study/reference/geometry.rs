@@ -13,7 +13,7 @@ pub enum Surface {
 
 /// How far a sphere is from something, and which way.
 #[derive(Clone, Copy, Debug)]
-pub struct Gap {
+pub struct SurfaceGap {
     /// Metres, negative when they overlap.
     pub distance: f64,
     /// Unit vector from the sphere's centre to the nearest point of the other body.
@@ -36,12 +36,12 @@ impl Surface {
     }
 
     /// The gap to a sphere.
-    pub fn gap(&self, point: DVec3, radius: f64) -> Gap {
+    pub fn gap(&self, point: DVec3, radius: f64) -> SurfaceGap {
         self.gap_of(Sum::new(point), radius)
     }
 
     /// The gap to a sphere whose centre is known better than an f64 holds it.
-    pub(super) fn gap_of(&self, point: Sum, radius: f64) -> Gap {
+    pub(super) fn gap_of(&self, point: Sum, radius: f64) -> SurfaceGap {
         match *self {
             Self::Sphere { centre, radius: own } => gap_along(Sum::new(centre).minus(point), radius + own),
             Self::Plate { centre, world_from_local, half_x, half_y } => {
@@ -49,7 +49,7 @@ impl Surface {
                 let nearest = dvec3(local.x.clamp(-half_x, half_x), local.y.clamp(-half_y, half_y), 0.0);
                 let offset = nearest - local;
                 let towards = world_from_local * offset.normalize_or_zero();
-                Gap { distance: offset.length() - radius, towards }
+                SurfaceGap { distance: offset.length() - radius, towards }
             }
         }
     }
@@ -63,13 +63,13 @@ impl Surface {
 }
 
 /// The gap between two spheres, seen from the first.
-pub fn sphere_gap(a: DVec3, radius_a: f64, b: DVec3, radius_b: f64) -> Gap {
+pub fn sphere_gap(a: DVec3, radius_a: f64, b: DVec3, radius_b: f64) -> SurfaceGap {
     gap_along(b - a, radius_a + radius_b)
 }
 
 /// The gap of two spheres whose centres are `offset` apart.
-pub(super) fn gap_along(offset: DVec3, radii: f64) -> Gap {
-    Gap { distance: offset.length() - radii, towards: offset.normalize_or_zero() }
+pub(super) fn gap_along(offset: DVec3, radii: f64) -> SurfaceGap {
+    SurfaceGap { distance: offset.length() - radii, towards: offset.normalize_or_zero() }
 }
 
 /// Whether a body moves, and its radius.

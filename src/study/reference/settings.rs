@@ -2,7 +2,7 @@
 
 /// How the reference works. Two runs with different settings show how far it can be trusted.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
+pub struct ReferenceSettings {
     /// Longest way of a body in one step, over its radius. Pairs are looked at four times on that way.
     pub stride: f64,
     /// Change of the last two columns of the extrapolation over the size of the step's own change.
@@ -12,20 +12,20 @@ pub struct Settings {
     pub last_first: bool,
 }
 
-impl Default for Settings {
+impl Default for ReferenceSettings {
     fn default() -> Self {
         Self { stride: 0.2, tolerance: 1e-14, last_first: false }
     }
 }
 
-impl Settings {
+impl ReferenceSettings {
     /// Another way to the same result, to compare with: what differs is the reference's own error.
     pub fn check() -> Self {
         Self { stride: 0.13, tolerance: 2e-14, last_first: true }
     }
 }
 
-/// Why the reference can't go on. What it has found until then stands.
+/// Why the reference cannot go on. What it has found until then stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum End {
     /// Bounces are about to end in rest or in a slide along the surface.
@@ -36,7 +36,7 @@ pub enum End {
     NotFinite,
 }
 
-/// A scene that the reference can't simulate.
+/// A scene that the reference cannot simulate.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the reference does not know {what} (body {label})")]
 pub struct Unsupported {

@@ -1,12 +1,12 @@
 //! The naive simulator: small steps, every pair in every step, bisection where surfaces cross.
 
 use super::flight::{Ball, Sum};
-use super::geometry::{Gap, Surface, dynamic_radius, gap_along};
-use super::{End, Settings, Unsupported};
+use super::geometry::{Surface, SurfaceGap, dynamic_radius, gap_along};
+use super::{End, ReferenceSettings, Unsupported};
 use crate::scene::{Body, Force, Motion, Scene};
 use glam::DVec3;
 
-/// One impact, as the core's ledger would tell it: `a` has the smaller UserID.
+/// One impact, as the core's ledger would report it: `a` has the smaller UserID.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impact {
     /// s.
@@ -44,7 +44,7 @@ pub struct Reference {
     balls: Vec<Ball>,
     statics: Vec<Fixture>,
     forces: Vec<Force>,
-    settings: Settings,
+    settings: ReferenceSettings,
     end: Option<End>,
 }
 
@@ -69,8 +69,11 @@ const LOOKS: usize = 4;
 const HALVINGS: usize = 70;
 /// Longest step, s.
 const LONGEST: f64 = 0.05;
-/// Impacts this close in time, s, may have come in either order, for all that rounding tells.
+/// Impacts this close in time, s, may have come in either order, as far as rounding allows to know.
 const SAME_INSTANT: f64 = 1e-13;
+/// A closing speed below this part of the two speeds that it is the difference of is their rounding: the pair
+/// touches in passing. Each of the three products of v·n is rounded, and so is n itself.
+const SPEED_ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// Lasting contact: the bounces that are left take less than this together, s, ...
 const ALL_BOUNCES: f64 = 1e-4;
 /// ... or one of them less than this.
@@ -78,7 +81,7 @@ const ONE_BOUNCE: f64 = 1e-6;
 
 impl Reference {
     /// The scene at t = 0.
-    pub fn new(scene: &Scene, settings: Settings) -> Result<Self, Unsupported> {
+    pub fn new(scene: &Scene, settings: ReferenceSettings) -> Result<Self, Unsupported> {
         let (mut balls, mut statics) = (Vec::new(), Vec::new());
         for (index, body) in scene.bodies.iter().enumerate() {
             match (body.motion, dynamic_radius(body), Surface::of(body)) {
@@ -211,7 +214,7 @@ impl Reference {
     }
 
     /// The gap of a pair and the rate at which it opens.
-    fn gap(&self, pair: Pair, balls: &[Ball]) -> (Gap, f64) {
+    fn gap(&self, pair: Pair, balls: &[Ball]) -> (SurfaceGap, f64) {
         let (gap, velocity) = match pair {
             Pair::Balls(i, j) => {
                 let (a, b) = (&balls[i], &balls[j]);
@@ -253,13 +256,19 @@ impl Reference {
         self.settings.stride * radius
     }
 
-    fn contact_between(&self, pair: Pair, from: (f64, (Gap, f64)), to: (f64, (Gap, f64))) -> Option<f64> {
+    fn contact_between(
+        &self,
+        pair: Pair,
+        from: (f64, (SurfaceGap, f64)),
+        to: (f64, (SurfaceGap, f64)),
+    ) -> Option<f64> {
         let (start, (gap_start, rate_start)) = from;
         let (end, (gap_end, rate_end)) = to;
         let is_open = |t: f64| self.gap_after(pair, t).0 > 0.0;
         let is_opening = |t: f64| self.gap_after(pair, t).1 > 0.0;
+        let is_closing = |rate: f64| rate < -SPEED_ROUNDING * self.speeds(pair);
         // A pair that touches and approaches meets now: hit by a third one, or its gap stayed below rounding.
-        if gap_start.distance <= 0.0 && rate_start < 0.0 {
+        if gap_start.distance <= 0.0 && is_closing(rate_start) {
             return Some(start);
         }
         // A pair that parts from its last impact is looked at from where its gap is widest.
@@ -280,10 +289,23 @@ impl Reference {
         } else {
             return None;
         };
-        (is_open(open) && !is_open(closed)).then(|| bisect(open, closed, is_open).1)
+        if !is_open(open) || is_open(closed) {
+            return None;
+        }
+        let contact = bisect(open, closed, is_open).1;
+        is_closing(self.gap_after(pair, contact).1).then_some(contact)
     }
 
-    /// Gap and opening rate of a pair some time after the start of the step.
+    /// Sum of the speeds that a closing speed of the pair is the difference of, m/s.
+    fn speeds(&self, pair: Pair) -> f64 {
+        let speed = |i: usize| self.balls[i].velocity.value.length();
+        match pair {
+            Pair::Balls(i, j) => speed(i) + speed(j),
+            Pair::Static(i, _) => speed(i),
+        }
+    }
+
+    /// SurfaceGap and opening rate of a pair some time after the start of the step.
     fn gap_after(&self, pair: Pair, after: f64) -> (f64, f64) {
         let mut balls = Vec::new();
         let indices = match pair {

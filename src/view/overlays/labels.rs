@@ -53,7 +53,7 @@ pub(in crate::view) fn add(stage: &Stage<'_>, list: &mut DrawList) {
         });
     }
     if left_out > 0 {
-        list.notes.push(format!("Names: {left_out} have no room; come nearer to see them."));
+        list.notes.push(format!("Names: {left_out} have no room; zoom in to see them."));
     }
 }
 
@@ -79,7 +79,7 @@ fn name<'a>(stage: &Stage<'_>, text: &'a str, place: DVec3, above: f64, rank: u8
 fn above(stage: &Stage<'_>, posed: &Posed<'_>) -> f64 {
     match posed.body.shape {
         Shape::Sphere { radius } => radius / stage.metres_per_point(posed.position) + 3.0,
-        // Over the middle of a plate, above the cross of what can't be drawn.
+        // Over the middle of a plate, above the cross of what cannot be drawn.
         Shape::Plane { .. } => -0.5 * SIZE,
         Shape::Unbuilt { .. } => SIZE,
     }

@@ -81,7 +81,7 @@ pub const OVERLAYS: &[Overlay] = &[
     Overlay {
         id: "trails",
         label: "Trails",
-        help: "Where the moving bodies have been lately.",
+        help: "Where the moving bodies have been recently.",
         default_on: false,
         add: trails::add,
     },

@@ -19,14 +19,14 @@ pub(super) struct Quantity {
     pub color: Color,
 }
 
-/// Adds an arrow for each (place, vector), and a line to the legend that tells the scale.
+/// Adds an arrow for each (place, vector), and a line with the scale to the legend.
 pub(super) fn add(stage: &Stage<'_>, list: &mut DrawList, quantity: &Quantity, vectors: &[(DVec3, DVec3)]) {
     let largest = vectors.iter().map(|(_, vector)| vector.length()).fold(0.0, f64::max);
     if !(largest.is_finite() && largest > 0.0) {
         return;
     }
     let metres_per_point = stage.camera.world_per_pixel(stage.input.viewport.height);
-    // Rounded, so that arrows don't breathe with every change of the largest.
+    // Rounded, so that arrows do not breathe with every change of the largest.
     let metres_per_unit = round_down_125(LONGEST * metres_per_point / largest);
     for (place, vector) in vectors.iter().take(MOST) {
         let Some(direction) = vector.try_normalize() else { continue };

@@ -1,4 +1,4 @@
-//! Where the moving bodies have been lately, fading with age.
+//! Where the moving bodies have been recently, fading with age.
 
 use crate::view::DrawList;
 use crate::view::stage::{Pen, Stage};

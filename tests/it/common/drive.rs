@@ -2,8 +2,7 @@
 
 use polyscene::scene::Scene;
 use polyscene::sim::{BodyRef, BodyState, Event, EventKind, Simulation};
-
-use super::random::Random;
+use polyscene::study::Random;
 
 /// Where the sample times of a run come from.
 #[derive(Clone, Copy, Debug)]

@@ -1,9 +1,8 @@
-//! What many tests share: scenes built in code or loaded from `scenes/`, seeded random numbers, ways of
-//! driving a simulation, the naive reference, and the all-pairs monitor.
+//! What many tests share: scenes built in code or loaded from `scenes/`, ways of driving a simulation,
+//! and the naive reference.
 
 pub mod build;
+pub mod contact_scenes;
 pub mod drive;
 pub mod load;
-pub mod monitor;
-pub mod random;
 pub mod reference;

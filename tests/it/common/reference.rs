@@ -1,12 +1,12 @@
 //! The naive simulator on a scene that it knows.
 
 use polyscene::scene::Scene;
-use polyscene::study::reference::{Reference, Settings};
+use polyscene::study::reference::{Reference, ReferenceSettings};
 
 pub fn reference(scene: &Scene) -> Reference {
-    with_settings(scene, Settings::default())
+    with_settings(scene, ReferenceSettings::default())
 }
 
-pub fn with_settings(scene: &Scene, settings: Settings) -> Reference {
+pub fn with_settings(scene: &Scene, settings: ReferenceSettings) -> Reference {
     Reference::new(scene, settings).expect("a scene that the reference knows")
 }

@@ -1,7 +1,9 @@
-//! Seeded random numbers (xorshift64*), the same on every platform.
+//! Seeded random numbers (xorshift64*), the same on every platform: for cases and tests.
 
 use glam::DVec3;
 
+/// A generator; equal seeds give equal numbers.
+#[derive(Clone, Debug)]
 pub struct Random(u64);
 
 impl Random {
@@ -20,15 +22,22 @@ impl Random {
 
     /// Uniform in [0, 1).
     pub fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1u64 << 53) as f64
+        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
+    /// Uniform in [low, high).
     pub fn range(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
 
+    /// From 0 to `count − 1`; 0 where `count` is 0.
     pub fn below(&mut self, count: usize) -> usize {
-        (self.bits() % count as u64) as usize
+        (self.bits() % count.max(1) as u64) as usize
+    }
+
+    /// Normal with mean 0 and deviation 1, as a sum of twelve uniform numbers.
+    pub fn normal(&mut self) -> f64 {
+        (0..12).map(|_| self.unit()).sum::<f64>() - 6.0
     }
 
     /// Uniform in a cube around 0.
