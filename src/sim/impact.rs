@@ -126,9 +126,10 @@ fn list(model: &Model, state: &mut State, time: f64, group: &Group, kind: EventK
 /// Books what a group lost and was given, settles what has come to rest, and lets its bodies go on.
 fn finish(model: &Model, state: &mut State, time: f64, mut group: Group) -> Result<(), Fault> {
     let before: Vec<DVec3> = group.bodies.ids.iter().map(|body| state.velocity(*body, time)).collect();
+    group.forget_rounding(&before);
     let settling = settle(model, &mut group);
     group.forget_rounding(&before);
-    book(state, &group);
+    book(state, &group, &before);
     let changed = changed(&group, &before, &settling);
     keep_contacts(model, state, &group, &settling);
     report_slides(model, state, time, &group, &before);
@@ -143,9 +144,13 @@ fn finish(model: &Model, state: &mut State, time: f64, mut group: Group) -> Resu
 }
 
 /// Momentum that static bodies gave or took, and energy lost.
-fn book(state: &mut State, group: &Group) {
-    for member in group.members.iter().filter(|member| member.pair.b.is_static()) {
-        state.account.impulses.add(-member.impulse * member.link.towards);
+fn book(state: &mut State, group: &Group, before: &[DVec3]) {
+    // What the bodies gave each other cancels: the rest came from static ones.
+    let bodies = &group.bodies;
+    for ((old, new), inverse_mass) in before.iter().zip(&bodies.v).zip(&bodies.inverse_mass) {
+        if old != new {
+            state.account.impulses.add((*new - *old) / *inverse_mass);
+        }
     }
     state.account.impact_losses.add(group.loss);
 }
