@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::force::{ForceEntry, Law, Subject};
 use super::model::Model;
-use super::motion::{applied_force, integrate};
+use super::motion::{applied_force, integrate, subject_at};
 use super::state::State;
 use super::{Energy, Momentum};
 
@@ -179,17 +179,7 @@ pub(super) fn present(model: &Model) -> impl Iterator<Item = u32> + '_ {
 }
 
 pub(super) fn subject<'a>(model: &'a Model, state: &State, body: u32, time: f64) -> Subject<'a> {
-    let mover = &model.movers[body as usize];
-    let (position, low) = state.path(body).position_split(time);
-    Subject {
-        time,
-        position,
-        low,
-        velocity: state.velocity(body, time),
-        mass: mover.mass,
-        radius: mover.radius,
-        material: mover.material.as_deref(),
-    }
+    subject_at(model, body, time, state.path(body).place(time), state.velocity(body, time))
 }
 
 /// −∫ F·v dt of the drag forces along the body's segment up to `time`, J.

@@ -8,8 +8,8 @@ use super::group::SAME_INSTANT;
 use super::impact::{self, contact_event};
 use super::island::{From, part, restart};
 use super::model::Model;
-use super::motion::{SegmentError, turn_back};
-use super::neighbours::{predict_core_passes, predict_fixture, predict_pair, reregister};
+use super::motion::{SegmentError, pass_core};
+use super::neighbours::{predict_fixture, predict_pair, reregister};
 use super::predict::{self, Gap};
 use super::queue::{Kind, Predicted};
 use super::state::State;
@@ -137,29 +137,6 @@ pub(super) fn a_little_after(time: f64) -> f64 {
 fn is_closed(gap: &Gap, radius: f64, time: f64) -> bool {
     let rounding_of_time = 16.0 * f64::EPSILON * time * gap.rate.abs();
     gap.distance <= 1e3 * predict::touch_tolerance(gap.point, radius) + rounding_of_time
-}
-
-/// The body is turned back on its line at the core of a point attractor, the limit of ever thinner
-/// ellipses, with its energy kept: it retraces its way, or where a force is not the same backwards, its
-/// radial velocity is reversed.
-fn pass_core(model: &Model, state: &mut State, next: &Predicted) -> Result<(), Fault> {
-    let (body, time) = (next.a, next.time);
-    let (x, v) = (state.position(body, time), state.velocity(body, time));
-    let super::force::Law::Point { center, .. } = model.forces[next.b as usize].law else { return Ok(()) };
-    if (center - x).length() > 2.0 * model.params.core_radius {
-        predict_core_passes(model, state, body, time);
-        return Ok(());
-    }
-    let inward = (center - x).normalize_or_zero();
-    let speed = v.dot(inward);
-    if speed <= 0.0 {
-        return Ok(());
-    }
-    let turned = if turn_back(model, state, body, time) { -v } else { v - 2.0 * speed * inward };
-    let mass = model.movers[body as usize].mass;
-    state.account.impulses.add(mass * (turned - v));
-    record(state, Event::of_one(time, EventKind::SingularPass, BodyRef::Dynamic(body), x));
-    restart(model, state, time, &[From { body, x, v: turned }])
 }
 
 /// The limit time of the bounces of two bodies has come.

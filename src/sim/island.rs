@@ -13,6 +13,7 @@ use super::motion::{
     SegmentError, Step, applied_force, begin_segment, check, coupled_step, place, step_hint, subject_at,
 };
 use super::neighbours::predict_all;
+use super::place::Place;
 use super::predict::PRESSURE_ROUNDING;
 use super::segment::Segment;
 use super::state::State;
@@ -130,7 +131,7 @@ pub(super) fn free(model: &Model, ids: &[u32], time: f64, x: &[DVec3], v: &[DVec
     let bodies = ids.iter().zip(x.iter().zip(v));
     bodies
         .map(|(body, (x, v))| {
-            let subject = subject_at(model, *body, time, *x, *v);
+            let subject = subject_at(model, *body, time, Place::exact(*x), *v);
             applied_force(model, &subject) / subject.mass
         })
         .collect()

@@ -25,6 +25,7 @@ mod island;
 mod lasting;
 mod motion;
 mod neighbours;
+mod place;
 mod predict;
 mod queue;
 mod restitution;

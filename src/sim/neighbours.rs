@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::contact::Partner;
 use super::model::Model;
+use super::motion::predict_core_passes;
 use super::predict;
 use super::queue::Kind;
 use super::roots::first_root;
@@ -124,18 +125,6 @@ pub(super) fn first_beyond(
             return Some(time);
         }
         time += step;
-    }
-}
-
-pub(super) fn predict_core_passes(model: &Model, state: &mut State, body: u32, time: f64) {
-    for (index, force) in (0u32..).zip(&model.forces) {
-        let super::force::Law::Point { center, intensity } = force.law else { continue };
-        if intensity <= 0.0 {
-            continue;
-        }
-        if let Some(pass) = predict::core_pass(state.path(body), center, model.params.core_radius, time) {
-            state.predict_one(pass.max(time), Kind::CorePass, body, index);
-        }
     }
 }
 

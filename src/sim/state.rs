@@ -1,6 +1,6 @@
 //! Everything that moves, as columns over the dynamic bodies.
 
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::VecDeque;
 
 use glam::DVec3;
 
@@ -8,7 +8,7 @@ use super::account::Account;
 use super::compile::Start;
 use super::contact::{Contact, Pair, Partner};
 use super::model::Model;
-use super::motion::Plunge;
+use super::motion::Plunges;
 use super::predict::Mover;
 use super::queue::{Kind, Predicted, Queue};
 use super::segment::{Path, Segment, Series};
@@ -31,8 +31,8 @@ pub(super) struct State {
     pub registered: Vec<TileRange>,
     /// Integrated motion; empty while all forces are uniform and no surface is round.
     pub fields: Vec<FieldColumn>,
-    /// Bodies close to an attractor, on their way in or back.
-    pub plunges: BTreeMap<u32, Plunge>,
+    /// Bodies close to an attractor.
+    pub plunges: Plunges,
     /// Lasting contacts; most bodies have none.
     pub contacts: Vec<Vec<Contact>>,
     /// Dynamic bodies that lie against each body and hardly move away, without lasting contact.
@@ -88,7 +88,7 @@ impl State {
             stamps: Vec::with_capacity(starts.len()),
             registered: Vec::with_capacity(starts.len()),
             fields: Vec::new(),
-            plunges: BTreeMap::new(),
+            plunges: Plunges::default(),
             contacts: Vec::with_capacity(starts.len()),
             touching: Vec::with_capacity(starts.len()),
             cascades: Vec::with_capacity(starts.len()),

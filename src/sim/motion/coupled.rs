@@ -3,10 +3,10 @@
 
 use glam::DVec3;
 
-use super::law::SegmentError;
-use super::radau::{
-    CONVERGED, LONGEST_STEP, MAX_PASSES, NODES, SAFETY, TO_POWERS, rounding_of, scale, update_difference,
-};
+use super::SegmentError;
+use super::collocation::{Differences, NODES};
+use super::control::{Accepted, Attempt, Passes, accept, first_guess, rounding_of, scale};
+use super::tolerance::{LONGEST_STEP, MAX_PASSES, NOISE_GAIN};
 use crate::sim::segment::{SERIES, Segment, Series};
 use crate::sim::state::FieldColumn;
 
@@ -35,23 +35,10 @@ pub(in crate::sim) fn coupled_step(
         return Err(SegmentError::NotFinite);
     }
     let start = Start { time, x, v, a0: &a0 };
-    let mut step = if hint > 0.0 { hint.min(LONGEST_STEP) } else { first_guess(&start, &mut field) };
-    loop {
-        if step < 1e-15 * time.abs().max(1e-3) {
-            return Err(SegmentError::Stalled);
-        }
-        let attempt = correct(&start, step, tolerance, &mut field);
-        let ratio = match attempt.error {
-            0.0 => f64::INFINITY,
-            error => libm::pow(tolerance / error, 1.0 / 7.0),
-        };
-        if !attempt.converged || ratio < SAFETY {
-            step *= if attempt.converged { ratio.max(0.02) } else { SAFETY };
-            continue;
-        }
-        let next_step = (step * ratio.min(1.0 / SAFETY)).min(LONGEST_STEP);
-        return Ok(start.segments(step, next_step, &attempt.series));
-    }
+    let first =
+        if hint > 0.0 { hint.min(LONGEST_STEP) } else { first_guess(|probe| start.ahead(probe, &mut field)) };
+    let accepted = accept(time, first, tolerance, |step| correct(&start, step, tolerance, &mut field))?;
+    Ok(start.segments(&accepted))
 }
 
 /// Where all bodies begin.
@@ -63,46 +50,49 @@ struct Start<'a> {
 }
 
 impl Start<'_> {
-    fn segments(&self, step: f64, next_step: f64, series: &[Series]) -> Vec<Step> {
+    /// Size of the accelerations a little later, and their largest change.
+    fn ahead(&self, probe: f64, field: &mut impl FnMut(f64, &[DVec3], &[DVec3]) -> Field) -> (f64, f64) {
+        let x: Vec<DVec3> = self.x.iter().zip(self.v).map(|(x, v)| *x + probe * *v).collect();
+        let v: Vec<DVec3> = self.v.iter().zip(self.a0).map(|(v, a)| *v + probe * *a).collect();
+        let (ahead, size) = field(self.time + probe, &x, &v);
+        let changes = ahead.iter().zip(self.a0).map(|(ahead, a0)| (*ahead - *a0).length());
+        (size, changes.fold(0.0, f64::max))
+    }
+
+    fn segments(&self, accepted: &Accepted<Vec<Series>>) -> Vec<Step> {
+        let Accepted { step, next_step, series } = accepted;
         let one = |(body, series): (usize, &Series)| {
             let segment = Segment {
                 end: self.time + step,
                 acceleration_bound: self.a0[body].length() + series.bound(),
-                step,
+                step: *step,
                 ..Segment::ballistic(self.time, self.x[body], self.v[body], self.a0[body])
             };
-            (segment, Some(FieldColumn { series: *series, next_step }))
+            (segment, Some(FieldColumn { series: *series, next_step: *next_step }))
         };
         series.iter().enumerate().map(one).collect()
     }
 }
 
-struct Attempt {
-    series: Vec<Series>,
-    converged: bool,
-    /// Largest |b₆| over the largest applied acceleration of the step.
-    error: f64,
-}
-
-/// Gauss–Seidel passes over the nodes until the last coefficients stand still.
+/// Gauss–Seidel passes over the nodes until the last coefficients stand still. The error is judged by the
+/// largest applied acceleration of the step.
 fn correct(
     start: &Start<'_>,
     step: f64,
     tolerance: f64,
     field: &mut impl FnMut(f64, &[DVec3], &[DVec3]) -> Field,
-) -> Attempt {
-    let count = start.x.len();
-    let mut series = vec![Series::default(); count];
-    let mut differences = vec![[DVec3::ZERO; SERIES]; count];
+) -> Attempt<Vec<Series>> {
+    let mut series = vec![Series::default(); start.x.len()];
+    let mut differences: Vec<Differences> = series.iter().map(Differences::of).collect();
     let (mut x, mut v) = (start.x.to_vec(), start.v.to_vec());
-    let mut attempt = Attempt { series: Vec::new(), converged: false, error: f64::INFINITY };
-    let (mut last_change, mut noise, mut size) = (f64::INFINITY, 0.0_f64, 0.0_f64);
+    let mut passes = Passes::new();
+    let (mut noise, mut size) = (0.0_f64, 0.0_f64);
     for _ in 0..MAX_PASSES {
         let mut change = 0.0_f64;
         (noise, size) = (0.0, f64::MIN_POSITIVE);
         for n in 1..=SERIES {
             let tau = NODES[n] * step;
-            for body in 0..count {
+            for body in 0..x.len() {
                 let (a0, b) = (start.a0[body], &series[body]);
                 x[body] =
                     start.x[body] + tau * (start.v[body] + tau * (0.5 * a0 + b.position_term(NODES[n])));
@@ -110,14 +100,11 @@ fn correct(
             }
             let (a, applied) = field(start.time + tau, &x, &v);
             if !a.iter().all(|a| a.is_finite()) {
-                return attempt;
+                return Attempt { series, converged: false, error: f64::INFINITY };
             }
-            for body in 0..count {
+            for body in 0..x.len() {
                 let rise = a[body] - start.a0[body];
-                let delta = update_difference(&mut differences[body], n, rise);
-                for (b, power) in series[body].b.iter_mut().zip(TO_POWERS[n - 1]).take(n) {
-                    *b += power * delta;
-                }
+                let delta = differences[body].update(&mut series[body], n, rise);
                 size = size.max(scale(applied, start.v[body], step));
                 if n == SERIES {
                     change = change.max(delta.length());
@@ -126,33 +113,11 @@ fn correct(
                 }
             }
         }
-        let relative = change / size;
-        let stagnant = (noise / size).max(1e-12);
-        if relative <= CONVERGED || (relative < stagnant && relative >= last_change) {
-            last_change = 0.0;
+        if passes.end(change / size, noise / size) {
             break;
         }
-        if relative > 1e3 * last_change {
-            break;
-        }
-        last_change = relative;
     }
-    attempt.converged = last_change < 1e-3 * tolerance;
     let last = series.iter().map(|series| series.b[SERIES - 1].length()).fold(0.0, f64::max);
-    attempt.error = (last - noise).max(0.0) / size;
-    attempt.series = series;
-    attempt
-}
-
-/// By how much the divided differences enlarge the rounding of an acceleration in b₆, with contacts.
-const NOISE_GAIN: f64 = 1e3;
-
-/// A tenth of the time in which the accelerations change by themselves along the motion.
-fn first_guess(start: &Start<'_>, field: &mut impl FnMut(f64, &[DVec3], &[DVec3]) -> Field) -> f64 {
-    const PROBE: f64 = 1e-6;
-    let x: Vec<DVec3> = start.x.iter().zip(start.v).map(|(x, v)| *x + PROBE * *v).collect();
-    let v: Vec<DVec3> = start.v.iter().zip(start.a0).map(|(v, a)| *v + PROBE * *a).collect();
-    let (ahead, size) = field(start.time + PROBE, &x, &v);
-    let rise = ahead.iter().zip(start.a0).map(|(ahead, a0)| (*ahead - *a0).length()).fold(0.0, f64::max);
-    if rise > 0.0 && size > 0.0 { (0.1 * size * PROBE / rise).clamp(1e-5, 0.1) } else { 0.01 }
+    let error = (last - noise).max(0.0) / size;
+    Attempt { series, converged: passes.have_converged(tolerance), error }
 }

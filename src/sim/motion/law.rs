@@ -2,22 +2,16 @@
 
 use glam::DVec3;
 
-use super::plunge::{self, Next, Point};
-use super::radau::{RadauError, RadauStart, radau_step};
+use super::SegmentError;
+use super::plunge::{Way, way_on};
+use super::radau::{RadauStart, radau_step};
+use super::tolerance::INSIDE;
 use crate::sim::account::book_segment;
 use crate::sim::force::{Law, Subject};
 use crate::sim::model::Model;
+use crate::sim::place::Place;
 use crate::sim::segment::Segment;
 use crate::sim::state::{FieldColumn, State};
-
-/// Why a body has no motion from here on.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::sim) enum SegmentError {
-    NotFinite,
-    Stalled,
-    /// The centre lies within the core of a point attractor, where its force has no meaning.
-    InCore,
-}
 
 /// Sum of the applied forces, N.
 pub(in crate::sim) fn applied_force(model: &Model, subject: &Subject<'_>) -> DVec3 {
@@ -35,10 +29,10 @@ pub(in crate::sim) fn begin_segment(
     v: DVec3,
 ) -> Result<(), SegmentError> {
     let (segment, column) = if model.is_ballistic() {
-        let subject = subject_at(model, body, time, x, v);
+        let subject = subject_at(model, body, time, Place::exact(x), v);
         (Segment::ballistic(time, x, v, applied_force(model, &subject) / subject.mass), None)
     } else {
-        integrated(model, state, body, time, x, v)?
+        integrated(model, state, body, time, (x, v))?
     };
     check(model, &segment)?;
     place(model, state, body, segment, column);
@@ -95,7 +89,7 @@ pub(in crate::sim) fn step_hint(state: &State, body: u32, time: f64) -> f64 {
 fn in_core(model: &Model, at: DVec3) -> bool {
     model.forces.iter().any(|force| match force.law {
         Law::Point { center, intensity } if intensity > 0.0 => {
-            (at - center).length() < 0.5 * model.params.core_radius
+            (at - center).length() < INSIDE * model.params.core_radius
         }
         Law::Point { center, intensity } if intensity < 0.0 => at == center,
         _ => false,
@@ -109,63 +103,47 @@ fn integrated(
     state: &mut State,
     body: u32,
     time: f64,
-    x: DVec3,
-    v: DVec3,
+    start: (DVec3, DVec3),
 ) -> Result<(Segment, Option<FieldColumn>), SegmentError> {
     let old = state.segments[body as usize];
     let column = state.fields.get(body as usize).copied().unwrap_or_default();
     let goes_on = old.step > 0.0 && old.end == time && !old.constrained;
-    let from = match plunge::next(state, body, time, v) {
-        Some(Next::Leg(leg)) => {
-            let (segment, series) = *leg;
+    let from = match way_on(model, state, body, time, start) {
+        Way::Back(step) => {
+            let (segment, series) = *step;
             return Ok((segment, Some(FieldColumn { series, next_step: segment.step })));
         }
-        Some(Next::Out(from)) => from,
-        None => {
-            plunge::remember(model, state, body, time);
-            Point { x, low: low_part(state, body, time, x), v }
-        }
+        Way::On(from) => from,
     };
     let start = RadauStart {
         time,
-        x: from.x,
-        low: from.low,
+        place: from.place,
         v: from.v,
         reads_position: model.forces.iter().any(|force| matches!(force.law, Law::Custom(_))),
         step: column.next_step,
         previous: goes_on.then_some((&column.series, old.step)),
         tolerance: model.params.field_tolerance,
     };
-    let step = radau_step(&start, &mut state.counters.force_evaluations, |time, at, v| {
-        let subject = Subject { low: at.low, ..subject_at(model, body, time, at.x, v) };
+    let (segment, column) = radau_step(&start, &mut state.counters.force_evaluations, |time, place, v| {
+        let subject = subject_at(model, body, time, place, v);
         applied_force(model, &subject) / subject.mass
-    });
-    let (segment, series, next_step) = step.map_err(|error| match error {
-        RadauError::NotFinite => SegmentError::NotFinite,
-        RadauError::Stalled => SegmentError::Stalled,
     })?;
-    Ok((segment, Some(FieldColumn { series, next_step })))
+    Ok((segment, Some(column)))
 }
 
-/// What a body that goes on from where it is has beyond the digits of its position, m.
-fn low_part(state: &State, body: u32, time: f64, x: DVec3) -> DVec3 {
-    let path = state.path(body);
-    let (at, low) = path.position_split(time);
-    if path.series.is_some() && at == x { low } else { DVec3::ZERO }
-}
-
+/// What forces see of a body.
 pub(in crate::sim) fn subject_at(
     model: &Model,
     body: u32,
     time: f64,
-    position: DVec3,
+    place: Place,
     velocity: DVec3,
 ) -> Subject<'_> {
     let mover = &model.movers[body as usize];
     Subject {
         time,
-        position,
-        low: DVec3::ZERO,
+        position: place.x,
+        low: place.low,
         velocity,
         mass: mover.mass,
         radius: mover.radius,

@@ -1,0 +1,68 @@
+//! The thresholds of the integrators and of close passes. Those that a scene can set are in
+//! [`crate::scene::PARAMS`]; these are bound to the method or to rounding.
+
+/// Step ratio below which a step is repeated, and whose inverse bounds growth (Rein & Spiegel 2015). Larger
+/// repeats more steps, smaller lets the error jump by (1/SAFETY)⁷.
+pub(super) const SAFETY: f64 = 0.25;
+
+/// A step is cut to this part of itself at most, so that one wild attempt does not end in a crawl.
+pub(super) const DEEPEST_CUT: f64 = 0.02;
+
+/// Corrector passes before a step counts as not convergent; smooth fields need 2 to 6.
+pub(super) const MAX_PASSES: u32 = 12;
+
+/// A change of b₆ this small against the acceleration ends the corrector: it enters the velocity by an eighth
+/// and the position by a 72nd, so that is rounding.
+pub(super) const CONVERGED: f64 = 5e-16;
+
+/// Changes below this part of the acceleration that no longer shrink are rounding. Smaller repeats passes
+/// that change nothing, larger takes slow convergence for the end of it.
+pub(super) const STAGNANT: f64 = 1e-12;
+
+/// A change this many times the one before means that the passes diverge: the step is too long.
+pub(super) const DIVERGING: f64 = 1e3;
+
+/// What the last pass may have changed, as part of the field tolerance, for a step to count as convergent.
+pub(super) const SHARE_OF_TOLERANCE: f64 = 1e-3;
+
+/// The acceleration counts as at least this fraction of speed per step when the error is judged, so that
+/// a body whose acceleration fades (drag at terminal speed) is not integrated to digits nobody can see.
+pub(super) const SPEED_FLOOR: f64 = 1e-3;
+
+/// By how much the divided differences enlarge the rounding of an acceleration in b₆: 1/Π(h₇ − hₖ) and a
+/// few of the same size. An error below that is none.
+pub(super) const NOISE_GAIN: f64 = 1e3;
+
+/// A series is carried on to steps at most so many times as long: farther off its guess is worse than none.
+pub(super) const LONGEST_GUESS: f64 = 4.5;
+
+/// Steps are never longer than this, s: a field may vary in time.
+pub(super) const LONGEST_STEP: f64 = 100.0;
+
+/// Steps below this part of the time are no steps.
+pub(super) const RESOLUTION: f64 = 1e-15;
+
+/// The earliest time at which [`RESOLUTION`] is taken, s.
+pub(super) const EARLIEST: f64 = 1e-3;
+
+/// How far ahead the field is looked at for a first step, s.
+pub(super) const PROBE: f64 = 1e-6;
+
+/// A first step is this part of the time in which the acceleration changes by itself.
+pub(super) const FIRST_SHARE: f64 = 0.1;
+
+/// Bounds of a first step, s.
+pub(super) const FIRST_STEPS: (f64, f64) = (1e-5, 0.1);
+
+/// First step where the field does not tell, s.
+pub(super) const FIRST_STEP: f64 = 0.01;
+
+/// Within so many core radii of an attractor the way is remembered. Farther off the potential is flat
+/// enough to lose nothing to rounding.
+pub(super) const REMEMBERED: f64 = 1e4;
+
+/// A predicted pass of an attractor farther off than so many core radii is none: the search gave up there.
+pub(super) const PASSED: f64 = 2.0;
+
+/// A centre within this part of the core radius was put there: one that falls in turns back at the core.
+pub(super) const INSIDE: f64 = 0.5;
