@@ -39,7 +39,8 @@ impl Subject<'_> {
 ///
 /// It must be a smooth function of its subject between the times at which it is added and removed, and
 /// always give the same answer for the same subject. Bodies under it are integrated with the tolerance
-/// of [`crate::scene::SimParams::field_tolerance`].
+/// of [`crate::scene::SimParams::field_tolerance`]. Steps end where the built-in drag is not smooth, at v = 0; where
+/// a force of your own is not, nobody knows, and what it does there is seen as far as a step's error shows it.
 ///
 /// ```
 /// use std::sync::Arc;

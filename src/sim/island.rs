@@ -10,7 +10,8 @@ use super::contact::{Bodies, Pair, Partner, Surface, surface_of};
 use super::engine::{fault, record_contact};
 use super::model::Model;
 use super::motion::{
-    SegmentError, Step, applied_force, begin_segment, check, coupled_step, place, step_hint, subject_at,
+    CoupledStart, SegmentError, Step, applied_force, begin_segment, check, coupled_step, place, step_hint,
+    subject_at,
 };
 use super::neighbours::predict_all;
 use super::place::Place;
@@ -190,19 +191,14 @@ pub(super) fn begin_island(
     } else {
         let hint = step_hint(state, island.ids[0], time);
         let Island { ids, x, v, contacts, inverse_mass } = island;
-        let step = coupled_step(
-            (time, x, v),
-            hint,
-            model.params.field_tolerance,
-            &mut state.counters.force_evaluations,
-            |time, x, v| {
-                let mut motion = free(model, ids, time, x, v);
-                let links = links_of(model, ids, contacts, x, v);
-                let size = largest(&motion, &links);
-                stay_on(&links, inverse_mass, &mut motion);
-                (motion, size)
-            },
-        );
+        let start = CoupledStart { model, ids, time, x, v, hint };
+        let step = coupled_step(&start, &mut state.counters.force_evaluations, |time, x, v| {
+            let mut motion = free(model, ids, time, x, v);
+            let links = links_of(model, ids, contacts, x, v);
+            let size = largest(&motion, &links);
+            stay_on(&links, inverse_mass, &mut motion);
+            (motion, size)
+        });
         step.map_err(|error| (ids[0], error))?
     };
     for (body, (segment, _)) in island.ids.iter().zip(&steps) {

@@ -4,9 +4,14 @@
 use glam::DVec3;
 
 use super::SegmentError;
-use super::collocation::{Differences, NODES};
-use super::control::{Accepted, Attempt, Passes, accept, first_guess, rounding_of, scale};
-use super::tolerance::{LONGEST_STEP, MAX_PASSES, NOISE_GAIN};
+use super::collocation::{Differences, NODES, beginning};
+use super::control::{
+    Accepted, Attempt, Beginning, Passes, accept, are_sound, first_guess, rounding_of, scale,
+};
+use super::law::limits;
+use super::smoothness::{Course, Smooth, drag_of};
+use super::tolerance::{MAX_PASSES, NOISE_GAIN};
+use crate::sim::model::Model;
 use crate::sim::segment::{SERIES, Segment, Series};
 use crate::sim::state::FieldColumn;
 
@@ -17,12 +22,20 @@ pub(in crate::sim) type Step = (Segment, Option<FieldColumn>);
 /// applied and the contact forces may all but cancel, and their rounding does not.
 pub(in crate::sim) type Field = (Vec<DVec3>, f64);
 
-/// One accepted step of all bodies from (x, v) at a time, of the same length. `hint` is the step to try
-/// first, s; 0 asks for one from the field itself.
+/// Where bodies in contact begin a step.
+pub(in crate::sim) struct CoupledStart<'a> {
+    pub model: &'a Model,
+    pub ids: &'a [u32],
+    pub time: f64,
+    pub x: &'a [DVec3],
+    pub v: &'a [DVec3],
+    /// The step to try first, s; 0 asks for one from the field itself.
+    pub hint: f64,
+}
+
+/// One accepted step of all bodies, of the same length.
 pub(in crate::sim) fn coupled_step(
-    (time, x, v): (f64, &[DVec3], &[DVec3]),
-    hint: f64,
-    tolerance: f64,
+    start: &CoupledStart<'_>,
     evaluations: &mut u64,
     mut accelerations: impl FnMut(f64, &[DVec3], &[DVec3]) -> Field,
 ) -> Result<Vec<Step>, SegmentError> {
@@ -30,45 +43,71 @@ pub(in crate::sim) fn coupled_step(
         *evaluations += x.len() as u64;
         accelerations(time, x, v)
     };
-    let (a0, _) = field(time, x, v);
-    if !a0.iter().chain(x).chain(v).all(|vector| vector.is_finite()) {
+    let (a0, size) = field(start.time, start.x, start.v);
+    if !(are_sound(a0.iter().chain(start.x).chain(start.v)) && size.is_finite()) {
         return Err(SegmentError::NotFinite);
     }
-    let start = Start { time, x, v, a0: &a0 };
-    let first =
-        if hint > 0.0 { hint.min(LONGEST_STEP) } else { first_guess(|probe| start.ahead(probe, &mut field)) };
-    let accepted = accept(time, first, tolerance, |step| correct(&start, step, tolerance, &mut field))?;
-    Ok(start.segments(&accepted))
+    let courses = start.courses(&a0);
+    let resolved = courses.iter().map(Course::resolved).fold(f64::INFINITY, f64::min);
+    let limits = limits(start.model);
+    let first = start.first_step(&a0, size, &mut field).min(limits.longest).min(resolved);
+    let accepted = accept(
+        start.time,
+        first,
+        limits,
+        |step| correct(start, &a0, step, limits.tolerance, &mut field),
+        |step, series: &Vec<Series>, reach| {
+            let looks = courses.iter().zip(series).map(|(course, series)| course.look(series, step, reach));
+            looks.fold(Smooth::Yes, Smooth::and)
+        },
+    );
+    Ok(start.segments(&a0, &accepted?))
 }
 
-/// Where all bodies begin.
-struct Start<'a> {
-    time: f64,
-    x: &'a [DVec3],
-    v: &'a [DVec3],
-    a0: &'a [DVec3],
-}
-
-impl Start<'_> {
-    /// Size of the accelerations a little later, and their largest change.
-    fn ahead(&self, probe: f64, field: &mut impl FnMut(f64, &[DVec3], &[DVec3]) -> Field) -> (f64, f64) {
-        let x: Vec<DVec3> = self.x.iter().zip(self.v).map(|(x, v)| *x + probe * *v).collect();
-        let v: Vec<DVec3> = self.v.iter().zip(self.a0).map(|(v, a)| *v + probe * *a).collect();
-        let (ahead, size) = field(self.time + probe, &x, &v);
-        let changes = ahead.iter().zip(self.a0).map(|(ahead, a0)| (*ahead - *a0).length());
-        (size, changes.fold(0.0, f64::max))
+impl CoupledStart<'_> {
+    fn courses(&self, a0: &[DVec3]) -> Vec<Course> {
+        let bodies = self.ids.iter().zip(self.v.iter().zip(a0));
+        bodies.map(|(body, (v, a))| Course { drag: drag_of(self.model, *body), v: *v, a: *a }).collect()
     }
 
-    fn segments(&self, accepted: &Accepted<Vec<Series>>) -> Vec<Step> {
-        let Accepted { step, next_step, series } = accepted;
+    /// The step to try first, s.
+    fn first_step(
+        &self,
+        a0: &[DVec3],
+        size: f64,
+        field: &mut impl FnMut(f64, &[DVec3], &[DVec3]) -> Field,
+    ) -> f64 {
+        if self.hint > 0.0 {
+            return self.hint;
+        }
+        // At rest the accelerations are what rounding leaves of the applied ones.
+        let bodies = self.ids.iter().zip(self.v).map(|(body, v)| Beginning {
+            radius: self.model.radii[*body as usize],
+            speed: v.length(),
+            acceleration: size,
+        });
+        first_guess(bodies, |probe| {
+            let ways = self.v.iter().zip(a0).map(|(v, a)| probe * (*v + (0.5 * probe) * *a));
+            let x: Vec<DVec3> = self.x.iter().zip(ways).map(|(x, way)| *x + way).collect();
+            let v: Vec<DVec3> = self.v.iter().zip(a0).map(|(v, a)| *v + probe * *a).collect();
+            let (ahead, size) = field(self.time + probe, &x, &v);
+            let changes = ahead.iter().zip(a0).map(|(ahead, a0)| (*ahead - *a0).length());
+            (size, changes.fold(0.0, f64::max))
+        })
+    }
+
+    fn segments(&self, a0: &[DVec3], accepted: &Accepted<Vec<Series>>) -> Vec<Step> {
+        let Accepted { step, share, next_step, series } = accepted;
+        let step = share * step;
         let one = |(body, series): (usize, &Series)| {
+            let series = beginning(series, *share);
             let segment = Segment {
                 end: self.time + step,
-                acceleration_bound: self.a0[body].length() + series.bound(),
-                step: *step,
-                ..Segment::ballistic(self.time, self.x[body], self.v[body], self.a0[body])
+                acceleration_bound: a0[body].length() + series.bound(),
+                step,
+                ..Segment::ballistic(self.time, self.x[body], self.v[body], a0[body])
             };
-            (segment, Some(FieldColumn { series: *series, next_step: *next_step }))
+            (segment, Some(FieldColumn { series, next_step: *next_step }))
         };
         series.iter().enumerate().map(one).collect()
     }
@@ -77,7 +116,8 @@ impl Start<'_> {
 /// Gauss–Seidel passes over the nodes until the last coefficients stand still. The error is judged by the
 /// largest applied acceleration of the step.
 fn correct(
-    start: &Start<'_>,
+    start: &CoupledStart<'_>,
+    a0: &[DVec3],
     step: f64,
     tolerance: f64,
     field: &mut impl FnMut(f64, &[DVec3], &[DVec3]) -> Field,
@@ -93,17 +133,17 @@ fn correct(
         for n in 1..=SERIES {
             let tau = NODES[n] * step;
             for body in 0..x.len() {
-                let (a0, b) = (start.a0[body], &series[body]);
+                let (a0, b) = (a0[body], &series[body]);
                 x[body] =
                     start.x[body] + tau * (start.v[body] + tau * (0.5 * a0 + b.position_term(NODES[n])));
                 v[body] = start.v[body] + tau * (a0 + b.velocity_term(NODES[n]));
             }
             let (a, applied) = field(start.time + tau, &x, &v);
-            if !a.iter().all(|a| a.is_finite()) {
+            if !(are_sound(a.iter()) && applied.is_finite()) {
                 return Attempt { series, converged: false, error: f64::INFINITY };
             }
             for body in 0..x.len() {
-                let rise = a[body] - start.a0[body];
+                let rise = a[body] - a0[body];
                 let delta = differences[body].update(&mut series[body], n, rise);
                 size = size.max(scale(applied, start.v[body], step));
                 if n == SERIES {

@@ -3,9 +3,11 @@
 use glam::DVec3;
 
 use super::SegmentError;
+use super::control::{Limits, are_sound};
 use super::plunge::{Way, way_on};
 use super::radau::{RadauStart, radau_step};
-use super::tolerance::INSIDE;
+use super::smoothness::drag_of;
+use super::tolerance::{FOR_EVER, INSIDE, LONGEST_STEP};
 use crate::sim::account::book_segment;
 use crate::sim::force::{Law, Subject};
 use crate::sim::model::Model;
@@ -44,8 +46,8 @@ pub(in crate::sim) fn check(model: &Model, segment: &Segment) -> Result<(), Segm
     if in_core(model, segment.x) {
         return Err(SegmentError::InCore);
     }
-    // The squares too: searches work with lengths, and do not end on infinite ones.
-    if [segment.x, segment.v, segment.a].iter().all(|vector| vector.length_squared().is_finite()) {
+    let bounds = segment.acceleration_bound * DVec3::X;
+    if are_sound([segment.x, segment.v, segment.a, bounds].iter()) {
         Ok(())
     } else {
         Err(SegmentError::NotFinite)
@@ -122,13 +124,24 @@ fn integrated(
         reads_position: model.forces.iter().any(|force| matches!(force.law, Law::Custom(_))),
         step: column.next_step,
         previous: goes_on.then_some((&column.series, old.step)),
-        tolerance: model.params.field_tolerance,
+        radius: model.radii[body as usize],
+        drag: drag_of(model, body),
+        limits: limits(model),
     };
     let (segment, column) = radau_step(&start, &mut state.counters.force_evaluations, |time, place, v| {
         let subject = subject_at(model, body, time, place, v);
         applied_force(model, &subject) / subject.mass
     })?;
     Ok((segment, Some(column)))
+}
+
+/// What bounds the steps of the integrators.
+pub(super) fn limits(model: &Model) -> Limits {
+    let is_custom = model.forces.iter().any(|force| matches!(force.law, Law::Custom(_)));
+    Limits {
+        tolerance: model.params.field_tolerance,
+        longest: if is_custom { LONGEST_STEP } else { FOR_EVER },
+    }
 }
 
 /// What forces see of a body.

@@ -8,10 +8,11 @@ mod law;
 mod plunge;
 mod quadrature;
 mod radau;
+mod smoothness;
 mod tolerance;
 
 pub(super) use close_pass::{pass_core, predict_core_passes};
-pub(super) use coupled::{Step, coupled_step};
+pub(super) use coupled::{CoupledStart, Step, coupled_step};
 pub(super) use law::{applied_force, begin_segment, check, place, step_hint, subject_at};
 pub(super) use plunge::Plunges;
 pub(super) use quadrature::integrate;

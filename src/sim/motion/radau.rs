@@ -7,9 +7,12 @@
 use glam::DVec3;
 
 use super::SegmentError;
-use super::collocation::{Differences, NODES, extrapolate, terms_at};
-use super::control::{Accepted, Attempt, Passes, accept, first_guess, rounding_of, scale};
-use super::tolerance::{LONGEST_STEP, MAX_PASSES, NOISE_GAIN};
+use super::collocation::{Differences, NODES, beginning, extrapolate, terms_at};
+use super::control::{
+    Accepted, Attempt, Beginning, Limits, Passes, accept, are_sound, first_guess, rounding_of, scale,
+};
+use super::smoothness::Course;
+use super::tolerance::{MAX_PASSES, NOISE_GAIN};
 use crate::sim::place::Place;
 use crate::sim::segment::{SERIES, Segment, Series};
 use crate::sim::state::FieldColumn;
@@ -26,8 +29,11 @@ pub(super) struct RadauStart<'a> {
     pub step: f64,
     /// The series of the step just ended (with its length), to extrapolate from.
     pub previous: Option<(&'a Series, f64)>,
-    /// Largest accepted |b₆|/|a|: `SimParams::field_tolerance`.
-    pub tolerance: f64,
+    /// m: what a length is short or long against.
+    pub radius: f64,
+    /// See [`super::smoothness::drag_of`].
+    pub drag: f64,
+    pub limits: Limits,
 }
 
 /// One accepted step as a segment, with the step to try next.
@@ -41,23 +47,22 @@ pub(super) fn radau_step(
         acceleration(time, start.place.moved(way), v)
     };
     let a0 = field(start.time, DVec3::ZERO, start.v);
-    if !(a0.is_finite() && start.place.x.is_finite() && start.v.is_finite()) {
+    if !are_sound([a0, start.place.x, start.v].iter()) {
         return Err(SegmentError::NotFinite);
     }
-    let first = if start.step > 0.0 {
-        start.step.min(LONGEST_STEP)
-    } else {
-        first_guess(|probe| {
-            let ahead = field(start.time + probe, probe * start.v, start.v + probe * a0);
-            (a0.length(), (ahead - a0).length())
-        })
-    };
+    let course = Course { drag: start.drag, v: start.v, a: a0 };
+    let first = first_step(start, a0, &mut field).min(start.limits.longest).min(course.resolved());
     let mut guess = start.previous.map(|(series, length)| extrapolate(series, first / length));
-    let accepted = accept(start.time, first, start.tolerance, |step| {
-        correct(start, a0, step, guess.take().unwrap_or_default(), &mut field)
-    });
-    let Accepted { step, next_step, series } = accepted?;
-    let series = Series { low: start.place.low, ..series };
+    let accepted = accept(
+        start.time,
+        first,
+        start.limits,
+        |step| correct(start, a0, step, guess.take().unwrap_or_default(), &mut field),
+        |step, series, reach| course.look(series, step, reach),
+    );
+    let Accepted { step, share, next_step, series } = accepted?;
+    let step = share * step;
+    let series = Series { low: start.place.low, ..beginning(&series, share) };
     let segment = Segment {
         end: start.time + step,
         acceleration_bound: a0.length() + series.bound(),
@@ -65,6 +70,19 @@ pub(super) fn radau_step(
         ..Segment::ballistic(start.time, start.place.x, start.v, a0)
     };
     Ok((segment, FieldColumn { series, next_step }))
+}
+
+/// The step to try first, s.
+fn first_step(start: &RadauStart<'_>, a0: DVec3, field: &mut impl FnMut(f64, DVec3, DVec3) -> DVec3) -> f64 {
+    if start.step > 0.0 {
+        return start.step;
+    }
+    let body = Beginning { radius: start.radius, speed: start.v.length(), acceleration: a0.length() };
+    first_guess(std::iter::once(body), |probe| {
+        let way = probe * (start.v + (0.5 * probe) * a0);
+        let ahead = field(start.time + probe, way, start.v + probe * a0);
+        (a0.length(), (ahead - a0).length())
+    })
 }
 
 /// Gauss–Seidel passes over the nodes until the last coefficient stands still.
@@ -88,7 +106,7 @@ fn correct(
             let way = tau * (start.v + tau * (0.5 * a0 + position_term));
             let v = start.v + tau * (a0 + velocity_term);
             let a = field(start.time + tau, way, v);
-            if !a.is_finite() {
+            if !are_sound([a].iter()) {
                 return Attempt { series, converged: false, error: f64::INFINITY };
             }
             largest = largest.max(a.length());
@@ -106,5 +124,5 @@ fn correct(
         }
     }
     let last = (series.b[SERIES - 1].length() - noise).max(0.0);
-    Attempt { series, converged: passes.have_converged(start.tolerance), error: last / size }
+    Attempt { series, converged: passes.have_converged(start.limits.tolerance), error: last / size }
 }

@@ -36,26 +36,51 @@ pub(super) const NOISE_GAIN: f64 = 1e3;
 /// A series is carried on to steps at most so many times as long: farther off its guess is worse than none.
 pub(super) const LONGEST_GUESS: f64 = 4.5;
 
-/// Steps are never longer than this, s: a field may vary in time.
+/// Under a force of the user's own steps are never longer than this, s: it may vary in time, which nothing shows
+/// before it does. A slower one is followed in more steps than it needs, a pulse between two steps is missed.
 pub(super) const LONGEST_STEP: f64 = 100.0;
 
-/// Steps below this part of the time are no steps.
+/// Steps of a body that nothing moves are never longer than this, s: it stands for ever.
+pub(super) const FOR_EVER: f64 = 1e100;
+
+/// Steps below this part of the time are no steps: the field is singular or not smooth.
 pub(super) const RESOLUTION: f64 = 1e-15;
 
-/// The earliest time at which [`RESOLUTION`] is taken, s.
-pub(super) const EARLIEST: f64 = 1e-3;
+/// A step that had to be cut to less than this part of the first one tried has no end either.
+pub(super) const SHORTEST_PART: f64 = 1e-18;
 
-/// How far ahead the field is looked at for a first step, s.
-pub(super) const PROBE: f64 = 1e-6;
+/// How far ahead the field is looked at for a first step: the way in it, as part of the body's radius. Shorter
+/// loses the change of the field to rounding, longer may look past what changes.
+pub(super) const PROBE: f64 = 1.0 / 1024.0;
+
+/// In a first step no body comes farther than this part of its radius. Longer is cut on round surfaces, shorter
+/// takes a few steps to grow.
+pub(super) const FIRST_WAY: f64 = 0.125;
 
 /// A first step is this part of the time in which the acceleration changes by itself.
 pub(super) const FIRST_SHARE: f64 = 0.1;
 
-/// Bounds of a first step, s.
-pub(super) const FIRST_STEPS: (f64, f64) = (1e-5, 0.1);
+/// Squares of lengths, speeds and accelerations stay below this, so that searches and integrators, which add
+/// products of two of them, have room before infinity.
+pub(super) const LARGEST_SQUARE: f64 = 1e300;
 
-/// First step where the field does not tell, s.
-pub(super) const FIRST_STEP: f64 = 0.01;
+/// Steps through drag are at most this part of the time in which it is smooth, |v|/|a|: its series then
+/// shrinks by 4.6 from one term to the next, and is at rounding where drag is a thousandth of the acceleration.
+/// Where it is more, b₆ shows it.
+pub(super) const RESOLVED: f64 = 1.0;
+
+/// A step that was made is left as it is up to this part of that time: between it and [`RESOLVED`] the guess
+/// before the step was a little off, and a repetition would cost more than it gains.
+pub(super) const RESOLVED_AFTER: f64 = 1.5;
+
+/// A kink nearer to the start of a step than this part of it is the one at which the step began.
+pub(super) const KINK_AT_START: f64 = 1e-9;
+
+/// A step cut at a kink looks for it so far: the first look, along a step across it, is a little off.
+pub(super) const KINK_REACH: f64 = 1.02;
+
+/// Of a step that ends at its kink all nodes lie before it: the last one is at 0.978.
+pub(super) const KINK_AT_END: f64 = 0.98;
 
 /// Within so many core radii of an attractor the way is remembered. Farther off the potential is flat
 /// enough to lose nothing to rounding.
