@@ -8,7 +8,7 @@ use super::group::SAME_INSTANT;
 use super::impact::{self, contact_event};
 use super::island::{From, part, restart};
 use super::model::Model;
-use super::motion::{SegmentError, pass_core};
+use super::motion::{SegmentError, free_unheld, pass_core};
 use super::neighbours::{predict_fixture, predict_pair, reregister};
 use super::predict::{self, Gap};
 use super::queue::{Kind, Predicted};
@@ -49,6 +49,7 @@ fn tidy(state: &mut State) {
 
 /// Begins segments for all bodies at `state.now` and predicts everything: any of them may be concerned.
 pub(super) fn begin_all(model: &Model, state: &mut State) -> Result<(), Fault> {
+    free_unheld(model, state);
     let starts: Vec<From> = present(model)
         .map(|body| (body, state.segments[body as usize]))
         .map(|(body, segment)| From { body, x: segment.x, v: segment.v })

@@ -212,9 +212,10 @@ impl Group {
         bodies.sort_unstable();
         bodies.dedup();
         let is_fixed = |member: &Member| member.link.b.is_none() && bodies.contains(&member.link.a);
-        let mass = |body: &usize| 1.0 / self.bodies.inverse_mass[*body];
+        let is_held = |body: &usize| self.bodies.inverse_mass[*body] == 0.0;
+        let mass = |body: &usize| if is_held(body) { 0.0_f64 } else { 1.0 / self.bodies.inverse_mass[*body] };
         let momentum: DVec3 = bodies.iter().map(|body| mass(body) * self.bodies.v[*body]).sum();
-        let common = if self.members.iter().any(is_fixed) {
+        let common = if self.members.iter().any(is_fixed) || bodies.iter().any(is_held) {
             self.seized -= momentum;
             DVec3::ZERO
         } else {

@@ -3,12 +3,13 @@
 
 use glam::DVec3;
 
-use super::contact::{Contact, Pair, restitution_of};
+use super::contact::{Contact, Pair, gap_of, restitution_of};
 use super::engine::{a_little_after, in_id_order, look_again, rank, record};
 use super::group::{Group, Member, hit_just_now};
 use super::island::{From, part, restart};
 use super::lasting::{Settling, settle};
 use super::model::Model;
+use super::motion::free_if_struck;
 use super::predict::{Gap, touch_tolerance};
 use super::restitution::{Blow, blow, reduced_mass};
 use super::state::State;
@@ -24,6 +25,9 @@ pub(super) fn resolve(
     gap: &Gap,
     also: &mut Vec<Pair>,
 ) -> Result<(), Fault> {
+    for struck in std::iter::once(&pair).chain(also.iter()) {
+        free_struck(model, state, time, *struck);
+    }
     let is_lone = pair.bodies().all(|body| {
         state.contacts[body as usize].is_empty()
             && state.touching[body as usize].is_empty()
@@ -58,9 +62,28 @@ pub(super) fn resolve(
 }
 
 /// Mass that an impulse between two bodies moves, kg.
-fn moved_mass(model: &Model, pair: Pair) -> f64 {
+fn moved_mass(model: &Model, state: &State, pair: Pair) -> f64 {
     let mass = model.movers[pair.a as usize].mass;
-    pair.other().map_or(mass, |other| reduced_mass(mass, model.movers[other as usize].mass))
+    match pair.other().map(|other| (other, model.movers[other as usize].mass)) {
+        Some((_, other_mass)) if state.held.contains(pair.a) => other_mass,
+        Some((other, _)) if state.held.contains(other) => mass,
+        Some((_, other_mass)) => reduced_mass(mass, other_mass),
+        None => mass,
+    }
+}
+
+/// Frees held bodies that an impact would throw out.
+fn free_struck(model: &Model, state: &mut State, time: f64, pair: Pair) {
+    let Some(other) = pair.other() else { return };
+    if !pair.bodies().any(|body| state.held.contains(body)) {
+        return;
+    }
+    let gap = gap_of(model, state, pair, time);
+    let [mass, other_mass] = [pair.a, other].map(|body| model.movers[body as usize].mass);
+    let reduced = reduced_mass(mass, other_mass);
+    let Blow { impulse, .. } = blow(reduced, restitution_of(model, pair), -gap.rate);
+    free_if_struck(model, state, pair.a, -impulse / mass * gap.normal);
+    free_if_struck(model, state, other, impulse / other_mass * gap.normal);
 }
 
 /// Whether the last bounces may have come: the full rule must decide.
@@ -101,11 +124,10 @@ pub(super) fn exchange(
     gap: &Gap,
 ) -> ((u32, DVec3), Option<(u32, DVec3)>) {
     let Blow { impulse, parting, loss } =
-        blow(moved_mass(model, pair), restitution_of(model, pair), -gap.rate);
+        blow(moved_mass(model, state, pair), restitution_of(model, pair), -gap.rate);
     state.account.impact_losses.add(loss);
-    if pair.other().is_none() {
-        state.account.impulses.add(-impulse * gap.normal);
-    }
+    let from_outside = impulse_from_outside(state, pair, impulse * gap.normal);
+    state.account.impulses.add(from_outside);
     state.group += 1;
     let event = Event {
         impulse,
@@ -115,8 +137,19 @@ pub(super) fn exchange(
         ..contact_event(time, EventKind::Impact, pair, gap)
     };
     record(state, in_id_order(model, event));
-    let change = |body: u32, impulse: f64| (body, impulse / model.movers[body as usize].mass * gap.normal);
+    let change = |body: u32, impulse: f64| {
+        let free = !state.held.contains(body);
+        (body, if free { impulse / model.movers[body as usize].mass * gap.normal } else { DVec3::ZERO })
+    };
     (change(pair.a, -impulse), pair.other().map(|other| change(other, impulse)))
+}
+
+/// Momentum that an impulse from the first body to the other brings into the system: what is static or held
+/// takes up its share of it.
+fn impulse_from_outside(state: &State, pair: Pair, impulse: DVec3) -> DVec3 {
+    let is_free = |body: u32| !state.held.contains(body);
+    let first = if is_free(pair.a) { -impulse } else { DVec3::ZERO };
+    first + if pair.other().is_some_and(is_free) { impulse } else { DVec3::ZERO }
 }
 
 /// An event of two bodies that exchanges no impulse, not yet numbered or in the order of their ids.
@@ -155,9 +188,8 @@ fn finish(model: &Model, state: &mut State, time: f64, mut group: Group) -> Resu
     let settling = settle(model, &mut group);
     let mut changed: Vec<bool> = before.iter().zip(&group.bodies.v).map(|(old, new)| old != new).collect();
     for (k, member) in group.members.iter().enumerate() {
-        if member.pair.other().is_none() {
-            state.account.impulses.add(-member.impulse * member.link.towards);
-        }
+        let from_outside = impulse_from_outside(state, member.pair, member.impulse * member.link.towards);
+        state.account.impulses.add(from_outside);
         let made = settling.iter().find(|settling| settling.member == k);
         let is_new = made.is_some_and(|made| made.settles_at.is_some());
         if is_new || (member.is_lasting && made.is_none()) {
@@ -173,8 +205,10 @@ fn finish(model: &Model, state: &mut State, time: f64, mut group: Group) -> Resu
     for (k, before) in before.iter().enumerate() {
         // ½m(v² − v'²) as a product, which does not cancel.
         let after = group.bodies.v[k];
-        let loss = 0.5 * (*before - after).dot(*before + after) / group.bodies.inverse_mass[k];
-        state.account.impact_losses.add(loss);
+        if *before != after {
+            let loss = 0.5 * (*before - after).dot(*before + after) / group.bodies.inverse_mass[k];
+            state.account.impact_losses.add(loss);
+        }
     }
     let unmoved: Vec<Pair> = group
         .members

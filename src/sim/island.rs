@@ -10,11 +10,9 @@ use super::contact::{Bodies, Pair, Partner, Surface, surface_of};
 use super::engine::{fault, record_contact};
 use super::model::Model;
 use super::motion::{
-    CoupledStart, SegmentError, Step, applied_force, begin_segment, check, coupled_step, place, step_hint,
-    subject_at,
+    CoupledStart, SegmentError, Step, begin_segment, check, coupled_step, driven, place, step_hint,
 };
 use super::neighbours::predict_all;
-use super::place::Place;
 use super::predict::PRESSURE_ROUNDING;
 use super::segment::Segment;
 use super::state::State;
@@ -72,7 +70,7 @@ impl Island {
     /// The island of some bodies, each where `from` says.
     pub fn new(model: &Model, state: &State, ids: Vec<u32>, from: impl Fn(u32) -> (DVec3, DVec3)) -> Self {
         let (x, v): (Vec<_>, Vec<_>) = ids.iter().map(|body| from(*body)).unzip();
-        let inverse_mass = ids.iter().map(|body| 1.0 / model.movers[*body as usize].mass).collect();
+        let inverse_mass = ids.iter().map(|body| state.inverse_mass(model, *body)).collect();
         let contacts = contacts_of(state, &ids);
         Self { ids, x, v, contacts, inverse_mass }
     }
@@ -88,7 +86,7 @@ impl Island {
 
     /// Accelerations under the applied forces alone.
     pub fn free(&self, model: &Model, time: f64) -> Vec<DVec3> {
-        free(model, &self.ids, time, &self.x, &self.v)
+        free(model, &self.ids, &self.inverse_mass, time, (&self.x, &self.v))
     }
 
     /// Which of the contacts are still pressed, in their order.
@@ -128,13 +126,17 @@ fn links_of(model: &Model, ids: &[u32], contacts: &[(Pair, Surface)], x: &[DVec3
     contacts.iter().map(|(pair, surface)| bodies.link(model, *pair, *surface)).collect()
 }
 
-pub(super) fn free(model: &Model, ids: &[u32], time: f64, x: &[DVec3], v: &[DVec3]) -> Vec<DVec3> {
-    let bodies = ids.iter().zip(x.iter().zip(v));
+/// Accelerations under the applied forces alone; a body without inverse mass is held.
+fn free(
+    model: &Model,
+    ids: &[u32],
+    inverse_mass: &[f64],
+    time: f64,
+    (x, v): (&[DVec3], &[DVec3]),
+) -> Vec<DVec3> {
+    let bodies = ids.iter().zip(inverse_mass).zip(x.iter().zip(v));
     bodies
-        .map(|(body, (x, v))| {
-            let subject = subject_at(model, *body, time, Place::exact(*x), *v);
-            applied_force(model, &subject) / subject.mass
-        })
+        .map(|((body, inverse_mass), (x, v))| driven(model, *inverse_mass == 0.0, *body, time, (*x, *v)))
         .collect()
 }
 
@@ -193,7 +195,7 @@ pub(super) fn begin_island(
         let Island { ids, x, v, contacts, inverse_mass } = island;
         let start = CoupledStart { model, ids, time, x, v, hint };
         let step = coupled_step(&start, &mut state.counters.force_evaluations, |time, x, v| {
-            let mut motion = free(model, ids, time, x, v);
+            let mut motion = free(model, ids, inverse_mass, time, (x, v));
             let links = links_of(model, ids, contacts, x, v);
             let size = largest(&motion, &links);
             stay_on(&links, inverse_mass, &mut motion);

@@ -189,9 +189,10 @@ fn level(group: &mut Group, settling: &[Settling]) {
     }
 }
 
-/// How a body moves at a time, for people: a body in contact that neither moves nor is driven rests.
+/// How a body moves at a time, for people: a body in contact that neither moves nor is driven
+/// rests, and so does one that is held.
 pub(super) fn contact_state(state: &State, body: u32, time: f64) -> ContactState {
-    if state.contacts[body as usize].is_empty() {
+    if state.contacts[body as usize].is_empty() && !state.held.contains(body) {
         return ContactState::Flight;
     }
     let path = state.path(body);

@@ -8,7 +8,7 @@ use super::account::Account;
 use super::compile::Start;
 use super::contact::{Contact, Pair, Partner};
 use super::model::Model;
-use super::motion::Plunges;
+use super::motion::{Held, Plunges};
 use super::predict::Mover;
 use super::queue::{Kind, Predicted, Queue};
 use super::segment::{Path, Segment, Series};
@@ -33,6 +33,8 @@ pub(super) struct State {
     pub fields: Vec<FieldColumn>,
     /// Bodies close to an attractor.
     pub plunges: Plunges,
+    /// Bodies captured by an attractor.
+    pub held: Held,
     /// Lasting contacts; most bodies have none.
     pub contacts: Vec<Vec<Contact>>,
     /// Dynamic bodies that lie against each body and hardly move away, without lasting contact.
@@ -89,6 +91,7 @@ impl State {
             registered: Vec::with_capacity(starts.len()),
             fields: Vec::new(),
             plunges: Plunges::default(),
+            held: Held::default(),
             contacts: Vec::with_capacity(starts.len()),
             touching: Vec::with_capacity(starts.len()),
             cascades: Vec::with_capacity(starts.len()),
@@ -167,6 +170,11 @@ impl State {
             Partner::Dynamic(other) => self.predict_pair(time, kinds[0], pair.a, other),
             Partner::Static(fixture) => self.predict_one(time, kinds[1], pair.a, fixture),
         }
+    }
+
+    /// 1/kg; 0 for a body that is held and moves for nobody.
+    pub fn inverse_mass(&self, model: &Model, body: u32) -> f64 {
+        if self.held.contains(body) { 0.0 } else { 1.0 / model.movers[body as usize].mass }
     }
 
     /// Whether a body is in lasting contact with a partner.

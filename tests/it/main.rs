@@ -75,6 +75,8 @@ mod scene_properties;
 mod scene_read;
 // Many bodies: what an edit costs, and whether it is right.
 mod scene_scale;
+// Capture at the core of an attractor.
+mod sim_capture;
 // Chains of impacts with known outcomes: head-on pairs, Newton's cradle, counting π.
 mod sim_chain;
 // Lasting contact: inclines, corners, edges, air, lifting off.

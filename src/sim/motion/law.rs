@@ -30,7 +30,10 @@ pub(in crate::sim) fn begin_segment(
     x: DVec3,
     v: DVec3,
 ) -> Result<(), SegmentError> {
-    let (segment, column) = if model.is_ballistic() {
+    let (segment, column) = if state.held.contains(body) {
+        let still = Segment::ballistic(time, x, DVec3::ZERO, DVec3::ZERO);
+        (Segment { constrained: true, ..still }, None)
+    } else if model.is_ballistic() {
         let subject = subject_at(model, body, time, Place::exact(x), v);
         (Segment::ballistic(time, x, v, applied_force(model, &subject) / subject.mass), None)
     } else {

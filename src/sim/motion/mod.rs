@@ -4,6 +4,7 @@ mod close_pass;
 mod collocation;
 mod control;
 mod coupled;
+mod held;
 mod law;
 mod plunge;
 mod quadrature;
@@ -13,6 +14,7 @@ mod tolerance;
 
 pub(super) use close_pass::{pass_core, predict_core_passes};
 pub(super) use coupled::{CoupledStart, Step, coupled_step};
+pub(super) use held::{Held, driven, free_if_struck, free_unheld};
 pub(super) use law::{applied_force, begin_segment, check, place, step_hint, subject_at};
 pub(super) use plunge::Plunges;
 pub(super) use quadrature::integrate;
