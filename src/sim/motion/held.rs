@@ -49,9 +49,9 @@ impl Attractor {
         axis * (1.0 + (1.0 - round).max(0.0).sqrt())
     }
 
-    /// Whether its pull on a body exceeds all other applied forces even so far off, m.
+    /// Whether its pull on a body exceeds all other applied forces even at this distance, m.
     fn rules(&self, model: &Model, body: u32, x: DVec3, distance: f64) -> bool {
-        // Together with its own pull the others would be its rounding.
+        // In the sum of all, beside its own pull, the others would be rounding.
         let subject = subject_at(model, body, 0.0, Place::exact(x), DVec3::ZERO);
         let others = model.forces.iter().filter(|force| !self.is(&force.law));
         let load: DVec3 = others.map(|force| force.law.force(&subject)).sum();
@@ -91,14 +91,12 @@ fn attractor_at(model: &Model, x: DVec3) -> Option<Attractor> {
     })
 }
 
-/// Frees the bodies that no attractor holds any more: after an edit.
+/// Frees the bodies at whose place no attractor is any more: after an edit.
 pub(in crate::sim) fn free_unheld(model: &Model, state: &mut State) {
     let mut held = std::mem::take(&mut state.held);
     held.0.retain(|body| {
-        let x = state.segments[*body as usize].x;
-        let reach = PASSED * model.params.core_radius;
         model.movers[*body as usize].present
-            && attractor_at(model, x).is_some_and(|attractor| attractor.rules(model, *body, x, reach))
+            && attractor_at(model, state.segments[*body as usize].x).is_some()
     });
     state.held = held;
 }
@@ -116,7 +114,7 @@ pub(in crate::sim) fn free_if_struck(model: &Model, state: &mut State, body: u32
     }
 }
 
-/// What potential energy and velocity a body has more than if it stood at x, J.
+/// What kinetic and potential energy a body has more than if it stood at x, J.
 pub(super) fn energy_above(model: &Model, state: &State, body: u32, time: f64, x: DVec3) -> f64 {
     let moving = subject_at(model, body, time, state.path(body).place(time), state.velocity(body, time));
     let standing = subject_at(model, body, time, Place::exact(x), DVec3::ZERO);
