@@ -153,7 +153,7 @@ impl Beginning {
 /// bodies to move by a part of their size. `ahead` gives the size of the acceleration and its change after some
 /// time.
 pub(super) fn first_guess(
-    bodies: impl Iterator<Item = Beginning> + Clone,
+    bodies: &(impl Iterator<Item = Beginning> + Clone),
     mut ahead: impl FnMut(f64) -> (f64, f64),
 ) -> f64 {
     let time_to = |part: f64| bodies.clone().map(|body| body.time_to(part)).fold(FOR_EVER, f64::min);

@@ -86,7 +86,7 @@ impl CoupledStart<'_> {
             speed: v.length(),
             acceleration: size,
         });
-        first_guess(bodies, |probe| {
+        first_guess(&bodies, |probe| {
             let ways = self.v.iter().zip(a0).map(|(v, a)| probe * (*v + (0.5 * probe) * *a));
             let x: Vec<DVec3> = self.x.iter().zip(ways).map(|(x, way)| *x + way).collect();
             let v: Vec<DVec3> = self.v.iter().zip(a0).map(|(v, a)| *v + probe * *a).collect();
@@ -130,13 +130,12 @@ fn correct(
     for _ in 0..MAX_PASSES {
         let mut change = 0.0_f64;
         (noise, size) = (0.0, f64::MIN_POSITIVE);
-        for n in 1..=SERIES {
-            let tau = NODES[n] * step;
+        for (n, node) in NODES.iter().enumerate().skip(1) {
+            let tau = node * step;
             for body in 0..x.len() {
                 let (a0, b) = (a0[body], &series[body]);
-                x[body] =
-                    start.x[body] + tau * (start.v[body] + tau * (0.5 * a0 + b.position_term(NODES[n])));
-                v[body] = start.v[body] + tau * (a0 + b.velocity_term(NODES[n]));
+                x[body] = start.x[body] + tau * (start.v[body] + tau * (0.5 * a0 + b.position_term(*node)));
+                v[body] = start.v[body] + tau * (a0 + b.velocity_term(*node));
             }
             let (a, applied) = field(start.time + tau, &x, &v);
             if !(are_sound(a.iter()) && applied.is_finite()) {

@@ -91,7 +91,7 @@ fn remember(model: &Model, state: &mut State, body: u32, time: f64) {
     }
 }
 
-fn push<'a>(state: &'a mut State, body: u32, time: f64) -> &'a mut Plunge {
+fn push(state: &mut State, body: u32, time: f64) -> &mut Plunge {
     let segment = state.segments[body as usize];
     let leg = Leg { segment, series: state.fields[body as usize].series, length: time - segment.start };
     let plunge = state.plunges.0.entry(body).or_default();

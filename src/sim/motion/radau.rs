@@ -78,7 +78,7 @@ fn first_step(start: &RadauStart<'_>, a0: DVec3, field: &mut impl FnMut(f64, DVe
         return start.step;
     }
     let body = Beginning { radius: start.radius, speed: start.v.length(), acceleration: a0.length() };
-    first_guess(std::iter::once(body), |probe| {
+    first_guess(&std::iter::once(body), |probe| {
         let way = probe * (start.v + (0.5 * probe) * a0);
         let ahead = field(start.time + probe, way, start.v + probe * a0);
         (a0.length(), (ahead - a0).length())
@@ -100,8 +100,8 @@ fn correct(
     for _ in 0..MAX_PASSES {
         let mut change = 0.0;
         let mut largest = a0.length();
-        for n in 1..=SERIES {
-            let tau = NODES[n] * step;
+        for (n, node) in NODES.iter().enumerate().skip(1) {
+            let tau = node * step;
             let (position_term, velocity_term) = terms_at(&series, n);
             let way = tau * (start.v + tau * (0.5 * a0 + position_term));
             let v = start.v + tau * (a0 + velocity_term);

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::advance::{Search, first_contact as advance};
 use super::{Gap, Mover, snap, snap_pressure, touch_tolerance};
+use crate::sim::segment::Path;
 
 /// Relative motion of `b` as seen from `a`.
 struct Relative {
@@ -28,9 +29,22 @@ pub(super) fn first_contact(a: Mover<'_>, b: Mover<'_>, from: f64) -> Option<f64
         let tau = straight(position, velocity_b - velocity_a, speeds, a.radius + b.radius);
         return tau.map(|tau| from + tau).filter(|time| *time <= until);
     }
-    let acceleration_bound = (!parabolas).then_some(seg_a.acceleration_bound + seg_b.acceleration_bound);
+    let acceleration_bound = (!parabolas).then(|| relative_bound(a.path, b.path));
     let slack = touch_tolerance(seg_a.x, a.radius).max(touch_tolerance(seg_b.x, b.radius));
     advance(Search { from, until, acceleration_bound, slack }, |time| gap(a, b, time))
+}
+
+/// Upper bound of the relative acceleration, m/s². Bodies integrated together move almost as one: what counts is
+/// the difference of their series, or the search would creep along beside each other.
+fn relative_bound(a: Path<'_>, b: Path<'_>) -> f64 {
+    let (seg_a, seg_b) = (a.segment, b.segment);
+    match (a.series, b.series) {
+        (Some(series_a), Some(series_b)) if seg_a.start == seg_b.start && seg_a.step == seg_b.step => {
+            let terms = series_a.b.iter().zip(&series_b.b);
+            (seg_b.a - seg_a.a).length() + terms.map(|(a, b)| (*b - *a).length()).sum::<f64>()
+        }
+        _ => seg_a.acceleration_bound + seg_b.acceleration_bound,
+    }
 }
 
 /// A pair nearer than `near` may lie against each other. Without branches but one, so that the looks at many
