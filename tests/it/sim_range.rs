@@ -97,8 +97,6 @@ fn in_units(length: f64, time: f64, mass: f64) -> Scene {
     scene.map.size *= length;
     scene.params.core_radius *= length;
     scene.params.contact_distance *= length;
-    scene.params.contact_duration *= time;
-    scene.params.rest_speed *= speed;
     scene.params.rest_time *= time;
     for body in &mut scene.bodies {
         *body = body.clone().radius(0.1 * length).mass(0.7 * mass);
