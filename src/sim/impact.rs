@@ -4,7 +4,6 @@
 use glam::DVec3;
 
 use super::capture::free_if_struck;
-use super::constraint::Link;
 use super::contact::Contact;
 use super::event::{Event, EventKind};
 use super::exchange::{exchange, impulse_from_outside, velocity_change};
@@ -13,6 +12,7 @@ use super::geometry::{gap_of, restitution_of, smaller_radius};
 use super::group::{Group, Member, hit_just_now};
 use super::island::part;
 use super::ledger::{contact_event, in_id_order, rank, record, record_contact};
+use super::link::Link;
 use super::model::Model;
 use super::neighbours::predict_later;
 use super::pair::Pair;

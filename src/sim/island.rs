@@ -5,10 +5,11 @@ use std::collections::BTreeSet;
 
 use glam::DVec3;
 
-use super::constraint::{Link, enter_none, stay_on};
+use super::constraint::{enter_none, stay_on};
 use super::event::EventKind;
 use super::geometry::{BodiesAt, surface_of};
 use super::ledger::record_contact;
+use super::link::Link;
 use super::model::Model;
 use super::motion::{CoupledStart, SegmentError, Step, check, coupled_step, place, step_hint};
 use super::nearest::Solved;

@@ -31,6 +31,7 @@ mod group;
 mod impact;
 mod island;
 mod ledger;
+mod link;
 mod motion;
 mod nearest;
 mod neighbours;

@@ -8,7 +8,7 @@
 
 use glam::DVec3;
 
-use super::constraint::Link;
+use super::link::Link;
 use super::tolerance::{DEPENDENT, ENTERING, LEFT_OVER, SHARING};
 
 /// What [`nearest`] finds besides the motion.
