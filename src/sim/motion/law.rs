@@ -29,7 +29,8 @@ pub(in crate::sim) fn begin_segment(
         let subject = model.subject(body, time, Place::exact(x), v);
         (Segment::ballistic(time, x, v, model.applied_acceleration(&subject)), None)
     } else {
-        integrated(model, state, body, time, (x, v))?
+        let why = |error| if in_core(model, x) { SegmentError::InCore } else { error };
+        integrated(model, state, body, time, (x, v)).map_err(why)?
     };
     check(model, &segment)?;
     place(model, state, body, segment, column);
