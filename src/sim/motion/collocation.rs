@@ -162,11 +162,12 @@ mod tests {
         for (n, node) in NODES.iter().enumerate().skip(1) {
             differences.update(&mut found, n, expected.acceleration_term(*node));
         }
+        // Differences enlarge rounding: see NOISE_GAIN.
         for (expected, found) in expected.b.iter().zip(&found.b) {
-            assert!((*expected - *found).length() <= 1e-12, "{expected} {found}");
+            assert!((*expected - *found).length() <= 1e-11, "{expected} {found}");
         }
         let again = Differences::of(&found);
-        assert!((again.0[SERIES - 1] - differences.0[SERIES - 1]).length() <= 1e-12);
+        assert!((again.0[SERIES - 1] - differences.0[SERIES - 1]).length() <= 1e-11);
     }
 
     #[test]
