@@ -115,17 +115,7 @@ fn relative(difference: f64, scale: f64) -> f64 {
 }
 
 pub(super) fn subject<'a>(model: &'a Model, state: &State, body: u32, time: f64) -> Subject<'a> {
-    let dynamic = model.dynamic(body);
-    let (position, low) = state.path(body).position_split(time);
-    Subject {
-        time,
-        position,
-        low,
-        velocity: state.velocity(body, time),
-        mass: dynamic.mass(),
-        radius: model.radius(body),
-        material: dynamic.material.as_deref(),
-    }
+    model.subject(body, time, state.path(body).place(time), state.velocity(body, time))
 }
 
 /// −∫ F·v dt of the drag forces along the body's segment up to `time`, J.

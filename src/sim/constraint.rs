@@ -6,56 +6,8 @@
 
 use glam::DVec3;
 
+use super::link::Link;
 use super::nearest::{Solved, nearest};
-
-/// One contact as a bound on the motion of the bodies of a group: (w_a − w_b)·towards ≤ limit.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Link {
-    /// Position of the body in the group.
-    pub a: usize,
-    /// Position of the other body; `None` for one that does not move.
-    pub b: Option<usize>,
-    /// Unit vector from the first body into the other.
-    pub towards: DVec3,
-    /// 0 for velocities; for accelerations what keeps the bodies on a curved surface, ≥ 0.
-    pub limit: f64,
-}
-
-impl Link {
-    /// How fast a motion enters the other body, in the units of the motion; negative when it leaves.
-    pub fn entering(&self, motion: &[DVec3]) -> f64 {
-        let other = self.b.map_or(DVec3::ZERO, |b| motion[b]);
-        (motion[self.a] - other).dot(self.towards)
-    }
-
-    /// Applies an impulse (or force) of this size to the bodies.
-    pub fn push(&self, motion: &mut [DVec3], inverse_mass: &[f64], size: f64) {
-        motion[self.a] -= size * inverse_mass[self.a] * self.towards;
-        if let Some(b) = self.b {
-            motion[b] += size * inverse_mass[b] * self.towards;
-        }
-    }
-
-    /// Whether two links act on one body.
-    pub fn shares_body(&self, other: &Self) -> bool {
-        let is_its = |body: usize| body == other.a || Some(body) == other.b;
-        is_its(self.a) || self.b.is_some_and(is_its)
-    }
-
-    /// Change of what enters here by a unit impulse at another link.
-    pub fn response(&self, other: &Self, inverse_mass: &[f64]) -> f64 {
-        let along = self.towards.dot(other.towards);
-        let mut sum = 0.0;
-        for (mine, my_sign) in [(Some(self.a), 1.0), (self.b, -1.0)] {
-            for (theirs, their_sign) in [(Some(other.a), 1.0), (other.b, -1.0)] {
-                if let Some(body) = mine.filter(|_| mine == theirs) {
-                    sum += my_sign * their_sign * inverse_mass[body];
-                }
-            }
-        }
-        sum * along
-    }
-}
 
 /// Turns a motion into the nearest one that enters no surface faster than its limit.
 pub(super) fn enter_none(links: &[Link], inverse_mass: &[f64], motion: &mut [DVec3]) -> Solved {

@@ -1,16 +1,15 @@
 //! The step: one predicted event after the other. [`advance`] is its table of contents.
 
-use super::body::BodyId;
-use super::event::{Event, EventKind};
+use super::capture::free_unheld;
+use super::close_pass::pass_core;
+use super::event::EventKind;
 use super::fault::Fault;
-use super::force::Law;
 use super::geometry::{contact_distance, gap_of, larger_radius};
 use super::impact;
 use super::island::part;
-use super::ledger::{record, record_contact};
+use super::ledger::record_contact;
 use super::model::Model;
-use super::motion::turn_back;
-use super::neighbours::{predict_core_passes, predict_later, predict_pair, reregister};
+use super::neighbours::{predict_later, predict_pair, reregister};
 use super::pair::Pair;
 use super::predict::{Gap, touch_tolerance};
 use super::queue::{Kind, Predicted};
@@ -53,6 +52,7 @@ fn tidy(state: &mut State) {
 
 /// Begins segments for all bodies at `state.now` and predicts everything: any of them may be concerned.
 pub(super) fn begin_all(model: &Model, state: &mut State) -> Result<(), Fault> {
+    free_unheld(model, state);
     let starts: Vec<Start> = model
         .present()
         .map(|body| (body, state.segments[body as usize]))
@@ -128,31 +128,6 @@ fn time_to_move(state: &State, pair: Pair, time: f64, gap: &Gap, distance: f64) 
 fn is_closed(gap: &Gap, radius: f64, time: f64) -> bool {
     let rounding_of_time = TIME_ROUNDING * time * gap.rate.abs();
     gap.distance <= FOUND * touch_tolerance(gap.point, radius) + rounding_of_time
-}
-
-/// The body is turned back on its line at the core of a point attractor, the limit of ever thinner
-/// ellipses, with its energy kept: it retraces its way, or where a force is not the same backwards, its
-/// radial velocity is reversed.
-fn pass_core(model: &Model, state: &mut State, next: &Predicted) -> Result<(), Fault> {
-    let (body, time) = (next.a, next.time);
-    let (x, v) = (state.position(body, time), state.velocity(body, time));
-    let Law::Point { center, .. } = model.forces[next.b.index() as usize].law else {
-        return Ok(());
-    };
-    if (center - x).length() > 2.0 * model.params.core_radius {
-        predict_core_passes(model, state, body, time);
-        return Ok(());
-    }
-    let inward = (center - x).normalize_or_zero();
-    let speed = v.dot(inward);
-    if speed <= 0.0 {
-        return Ok(());
-    }
-    let turned = if turn_back(model, state, body, time) { -v } else { v - 2.0 * speed * inward };
-    let mass = model.mass(body);
-    state.account.impulses.add(mass * (turned - v));
-    record(state, Event::of_one(time, EventKind::SingularPass, BodyId::of_dynamic(body).to_ref(), x));
-    restart(model, state, time, &[Start { body, x, v: turned }])
 }
 
 /// The limit time of the bounces of two bodies has come.

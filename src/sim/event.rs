@@ -27,6 +27,9 @@ pub enum EventKind {
     LiftOff,
     /// A body passed a point attractor within the core radius.
     SingularPass,
+    /// A body bound to the core of a point attractor stays there from now on, until an impact throws it out or an
+    /// edit takes the attractor away.
+    Captured,
     /// An impact in an inelastic collapse: one of more than anyone could list, at one instant or closely after
     /// each other. What is left of them is taken plastically, and the bodies do not bounce off each other until
     /// it has been quiet for a while.
@@ -36,17 +39,19 @@ pub enum EventKind {
 }
 
 impl EventKind {
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Impact,
         Self::Rest,
         Self::Slide,
         Self::LiftOff,
         Self::SingularPass,
+        Self::Captured,
         Self::Collapse,
         Self::Edit,
     ];
 
-    /// The name used in files: `impact`, `rest`, `slide`, `lift_off`, `singular_pass`, `collapse`, `edit`.
+    /// The name used in files: `impact`, `rest`, `slide`, `lift_off`, `singular_pass`, `captured`,
+    /// `collapse`, `edit`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Impact => "impact",
@@ -54,6 +59,7 @@ impl EventKind {
             Self::Slide => "slide",
             Self::LiftOff => "lift_off",
             Self::SingularPass => "singular_pass",
+            Self::Captured => "captured",
             Self::Collapse => "collapse",
             Self::Edit => "edit",
         }
@@ -67,6 +73,7 @@ impl EventKind {
             Self::Slide => "a body in contact began to move along the surface",
             Self::LiftOff => "a body in contact left the surface",
             Self::SingularPass => "a body passed a point attractor within the core radius",
+            Self::Captured => "a body bound to the core of a point attractor stays there from now on",
             Self::Collapse => "inelastic collapse: impacts without end, taken plastically until it is quiet",
             Self::Edit => "the scene was edited while it ran",
         }

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::body::BodyId;
 use super::event::{Event, EventKind};
 use super::geometry::restitution_of;
 use super::ledger::{contact_event, in_id_order, record};
@@ -14,12 +15,11 @@ use super::state::State;
 /// Books and lists an impact of two bodies by Newton's law, v_n' = −e v_n. Gives the impulse on the second one
 /// along the normal, N·s; the first takes the opposite.
 pub(super) fn exchange(model: &Model, state: &mut State, time: f64, pair: Pair, gap: &Gap) -> f64 {
-    let moved = reduced_mass(model.body(pair.a).mass(), model.body(pair.b).mass());
+    let moved = reduced_mass(mass(model, state, pair.a), mass(model, state, pair.b));
     let Blow { impulse, parting, loss } = blow(moved, restitution_of(model, pair), -gap.rate);
     state.account.impact_losses.add(loss);
-    if pair.b.is_static() {
-        state.account.impulses.add(-impulse * gap.normal);
-    }
+    let from_outside = impulse_from_outside(state, pair, impulse * gap.normal);
+    state.account.impulses.add(from_outside);
     state.group += 1;
     let event = Event {
         impulse,
@@ -33,6 +33,18 @@ pub(super) fn exchange(model: &Model, state: &mut State, time: f64, pair: Pair, 
 }
 
 /// What an impulse along the normal does to a dynamic body, m/s.
-pub(super) fn velocity_change(model: &Model, body: u32, impulse: f64, normal: DVec3) -> DVec3 {
-    impulse / model.mass(body) * normal
+pub(super) fn velocity_change(model: &Model, state: &State, body: u32, impulse: f64, normal: DVec3) -> DVec3 {
+    impulse / mass(model, state, BodyId::of_dynamic(body)) * normal
+}
+
+/// Mass with which a body answers an impulse, kg.
+fn mass(model: &Model, state: &State, body: BodyId) -> f64 {
+    if state.is_fixed(body) { f64::INFINITY } else { model.body(body).mass() }
+}
+
+/// Momentum that an impulse from the first body to the second brings into the system, N·s: what is fixed takes up
+/// its share of it.
+pub(super) fn impulse_from_outside(state: &State, pair: Pair, impulse: DVec3) -> DVec3 {
+    let taken = |body: BodyId| if state.is_fixed(body) { DVec3::ZERO } else { impulse };
+    taken(pair.b) - taken(pair.a)
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::place::Place;
 use crate::scene::{ForceKind, NodeKey};
 
 /// What a force may look at: the time and the body's own state. A force between two moving bodies is
@@ -15,7 +16,7 @@ pub struct Subject<'a> {
     pub time: f64,
     /// Centre, m.
     pub position: DVec3,
-    /// What the centre has beyond the digits of `position`, m.
+    /// What the centre has beyond the digits of `position`, m: see [`Place`].
     pub(super) low: DVec3,
     /// m/s.
     pub velocity: DVec3,
@@ -27,11 +28,19 @@ pub struct Subject<'a> {
     pub material: Option<&'a str>,
 }
 
+impl Subject<'_> {
+    /// The centre in all its digits.
+    pub(super) fn place(&self) -> Place {
+        Place { x: self.position, low: self.low }
+    }
+}
+
 /// A force of the user's own, acting on every dynamic body.
 ///
 /// It must be a smooth function of its subject between the times at which it is added and removed, and
 /// always give the same answer for the same subject. Bodies under it are integrated with the tolerance
-/// of [`crate::scene::SimParams::field_tolerance`].
+/// of [`crate::scene::SimParams::field_tolerance`]. Steps end where the built-in drag is not smooth, at v = 0; where
+/// a force of your own is not, nobody knows, and what it does there is seen as far as a step's error shows it.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -144,7 +153,7 @@ impl Law {
             Self::Uniform { acceleration } => on.mass * *acceleration,
             // F = G m r/|r|³ towards the centre.
             Self::Point { center, intensity } => {
-                let r = (*center - on.position) - on.low;
+                let r = on.place().way_to(*center);
                 let distance_squared = r.length_squared();
                 if *intensity == 0.0 || distance_squared == 0.0 {
                     return DVec3::ZERO;
@@ -165,7 +174,7 @@ impl Law {
         match self {
             Self::Uniform { acceleration } => Some(-on.mass * acceleration.dot(on.position)),
             Self::Point { center, intensity } => {
-                let distance = ((*center - on.position) - on.low).length();
+                let distance = on.place().way_to(*center).length();
                 Some(if *intensity == 0.0 { 0.0 } else { -intensity * on.mass / distance })
             }
             Self::Drag { .. } => Some(0.0),

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::body::BodyId;
-use super::constraint::Link;
+use super::link::Link;
 use super::model::Model;
 use super::pair::Pair;
 use super::predict::{self, Ball, Gap, Target};

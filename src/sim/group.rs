@@ -16,9 +16,10 @@
 use glam::DVec3;
 
 use super::body::BodyId;
-use super::constraint::{Link, enter_none};
+use super::constraint::enter_none;
 use super::geometry::{BodiesAt, contact_distance, gap_of, restitution_of, surface_of};
 use super::island::Island;
+use super::link::Link;
 use super::model::Model;
 use super::nearest::nearest;
 use super::neighbours::near;

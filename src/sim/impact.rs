@@ -3,20 +3,22 @@
 
 use glam::DVec3;
 
-use super::constraint::Link;
+use super::capture::free_if_struck;
 use super::contact::Contact;
 use super::event::{Event, EventKind};
 use super::exchange::{exchange, velocity_change};
 use super::fault::Fault;
-use super::geometry::{restitution_of, smaller_radius};
+use super::geometry::{gap_of, restitution_of, smaller_radius};
 use super::group::{Group, Member, hit_just_now};
 use super::island::part;
 use super::ledger::{contact_event, in_id_order, rank, record, record_contact};
+use super::link::Link;
 use super::model::Model;
 use super::neighbours::predict_later;
 use super::pair::Pair;
 use super::predict::{Gap, touch_tolerance};
 use super::restart::{Start, restart};
+use super::restitution::{Blow, blow, reduced_mass};
 use super::settle::{Settling, settle};
 use super::state::State;
 use super::tolerance::MEMORY;
@@ -31,6 +33,9 @@ pub(super) fn resolve(
     gap: &Gap,
     also: &mut Vec<Pair>,
 ) -> Result<(), Fault> {
+    for struck in std::iter::once(&pair).chain(also.iter()) {
+        free_struck(model, state, time, *struck);
+    }
     let is_lone = pair.dynamic().all(|body| {
         state.contacts[body as usize].is_empty()
             && state.touching[body as usize].is_empty()
@@ -65,11 +70,26 @@ fn collapse(model: &Model, state: &mut State, group: &mut Group) -> bool {
     }
     note_lossy(model, state, impacts);
     if group.resolve(model.params.collapse_share) {
-        let lossy =
-            |member: &&Member| member.impulse > 0.0 && member.restitution < 1.0 && !member.pair.b.is_static();
+        let lossy = |member: &&Member| {
+            member.impulse > 0.0 && member.restitution < 1.0 && are_both_free(state, member.pair)
+        };
         collapsed.extend(group.members.iter().filter(lossy).flat_map(|member| member.pair.dynamic()));
     }
     report_collapse(state, collapsed)
+}
+
+/// Frees captured bodies that an impact would throw out.
+fn free_struck(model: &Model, state: &mut State, time: f64, pair: Pair) {
+    let Some(other) = pair.second() else { return };
+    if !pair.dynamic().any(|body| state.captured.contains(&body)) {
+        return;
+    }
+    let gap = gap_of(model, state, pair, time);
+    let reduced = reduced_mass(model.mass(pair.first()), model.mass(other));
+    let Blow { impulse, .. } = blow(reduced, restitution_of(model, pair), -gap.rate);
+    for (body, impulse) in [(pair.first(), -impulse), (other, impulse)] {
+        free_if_struck(model, state, body, impulse / model.mass(body) * gap.normal);
+    }
 }
 
 /// Whether the last bounces may have come: the full rule must decide.
@@ -87,7 +107,7 @@ fn bounce(model: &Model, state: &mut State, time: f64, pair: Pair, gap: &Gap) ->
     let start = |body: u32, impulse: f64| Start {
         body,
         x: state.position(body, time),
-        v: state.velocity(body, time) + velocity_change(model, body, impulse, gap.normal),
+        v: state.velocity(body, time) + velocity_change(model, state, body, impulse, gap.normal),
     };
     let first = start(pair.first(), -impulse);
     match pair.second() {
@@ -143,9 +163,9 @@ fn finish(model: &Model, state: &mut State, time: f64, mut group: Group) -> Resu
     Ok(())
 }
 
-/// Momentum that static bodies gave or took, and energy lost.
+/// Momentum that fixed bodies gave or took, and energy lost.
 fn book(state: &mut State, group: &Group, before: &[DVec3]) {
-    // What the bodies gave each other cancels: the rest came from static ones.
+    // What the free bodies gave each other cancels: the rest came from fixed ones.
     let bodies = &group.bodies;
     for ((old, new), inverse_mass) in before.iter().zip(&bodies.v).zip(&bodies.inverse_mass) {
         if old != new {
@@ -218,13 +238,17 @@ fn make(state: &mut State, member: &Member, settling: &Settling) {
 /// nothing of what its bodies met others with. Elastic pairs make no collapse, and a lone body comes to rest on
 /// what is fixed.
 fn is_collapsing(model: &Model, state: &State, pair: Pair, closing: f64) -> bool {
-    let fastest = |body: u32| state.cascades[body as usize].reference;
-    pair.second().is_some_and(|other| {
-        let restitution = restitution_of(model, pair);
-        0.0 < restitution
-            && restitution < 1.0
-            && closing <= model.params.collapse_share * fastest(pair.first()).max(fastest(other))
-    })
+    let restitution = restitution_of(model, pair);
+    let references = pair.dynamic().map(|body| state.cascades[body as usize].reference);
+    are_both_free(state, pair)
+        && 0.0 < restitution
+        && restitution < 1.0
+        && closing <= model.params.collapse_share * references.fold(0.0, f64::max)
+}
+
+/// Whether both bodies can move.
+fn are_both_free(state: &State, pair: Pair) -> bool {
+    !state.is_fixed(pair.a) && !state.is_fixed(pair.b)
 }
 
 /// Remembers the lossy impacts of dynamic bodies.

@@ -5,14 +5,16 @@ use std::collections::BTreeSet;
 
 use glam::DVec3;
 
-use super::constraint::{Link, enter_none, stay_on};
+use super::constraint::{enter_none, stay_on};
 use super::event::EventKind;
 use super::geometry::{BodiesAt, surface_of};
 use super::ledger::record_contact;
+use super::link::Link;
 use super::model::Model;
-use super::motion::{SegmentError, Step, applied_force, check, coupled_step, place, step_hint, subject_at};
+use super::motion::{CoupledStart, SegmentError, Step, check, coupled_step, place, step_hint};
 use super::nearest::Solved;
 use super::pair::Pair;
+use super::place::Place;
 use super::segment::Segment;
 use super::shape::Surface;
 use super::state::State;
@@ -62,7 +64,7 @@ impl Island {
     /// The island of some bodies, each where `from` says.
     pub fn new(model: &Model, state: &State, ids: Vec<u32>, from: impl Fn(u32) -> (DVec3, DVec3)) -> Self {
         let (x, v): (Vec<_>, Vec<_>) = ids.iter().map(|body| from(*body)).unzip();
-        let inverse_mass = ids.iter().map(|body| model.dynamic(*body).inverse_mass()).collect();
+        let inverse_mass = ids.iter().map(|body| state.inverse_mass(model, *body)).collect();
         let contacts = contacts_of(state, &ids);
         Self { ids, x, v, contacts, inverse_mass }
     }
@@ -78,7 +80,7 @@ impl Island {
 
     /// Accelerations under the applied forces alone.
     pub fn free(&self, model: &Model, time: f64) -> Vec<DVec3> {
-        free(model, &self.ids, time, &self.x, &self.v)
+        free(model, &self.ids, &self.inverse_mass, time, (&self.x, &self.v))
     }
 
     /// Which of the contacts are still pressed, in their order.
@@ -127,14 +129,19 @@ fn links_of(model: &Model, ids: &[u32], contacts: &[(Pair, Surface)], x: &[DVec3
     contacts.iter().map(|(pair, surface)| bodies.link(model, *pair, *surface)).collect()
 }
 
-pub(super) fn free(model: &Model, ids: &[u32], time: f64, x: &[DVec3], v: &[DVec3]) -> Vec<DVec3> {
-    let bodies = ids.iter().zip(x.iter().zip(v));
-    bodies
-        .map(|(body, (x, v))| {
-            let subject = subject_at(model, *body, time, *x, *v);
-            applied_force(model, &subject) / subject.mass
-        })
-        .collect()
+/// Accelerations under the applied forces alone; nothing moves a body without inverse mass.
+fn free(
+    model: &Model,
+    ids: &[u32],
+    inverse_mass: &[f64],
+    time: f64,
+    (x, v): (&[DVec3], &[DVec3]),
+) -> Vec<DVec3> {
+    let driven = |((body, x), v): ((&u32, &DVec3), &DVec3)| {
+        model.applied_acceleration(&model.subject(*body, time, Place::exact(*x), *v))
+    };
+    let bodies = ids.iter().zip(x).zip(v).zip(inverse_mass);
+    bodies.map(|(at, inverse)| if *inverse > 0.0 { driven(at) } else { DVec3::ZERO }).collect()
 }
 
 /// Drops the contacts of an island that nothing presses together any more, and brings the others up to date
@@ -190,19 +197,14 @@ pub(super) fn begin_island(
     } else {
         let hint = step_hint(state, island.ids[0], time);
         let Island { ids, x, v, contacts, inverse_mass } = island;
-        let step = coupled_step(
-            (time, x, v),
-            hint,
-            model.params.field_tolerance,
-            &mut state.counters.force_evaluations,
-            |time, x, v| {
-                let mut motion = free(model, ids, time, x, v);
-                let links = links_of(model, ids, contacts, x, v);
-                let size = largest(&motion, &links);
-                stay_on(&links, inverse_mass, &mut motion);
-                (motion, size)
-            },
-        );
+        let start = CoupledStart { model, ids, time, x, v, hint };
+        let step = coupled_step(&start, &mut state.counters.force_evaluations, |time, x, v| {
+            let mut motion = free(model, ids, inverse_mass, time, (x, v));
+            let links = links_of(model, ids, contacts, x, v);
+            let size = largest(&motion, &links);
+            stay_on(&links, inverse_mass, &mut motion);
+            (motion, size)
+        });
         step.map_err(|error| (ids[0], error))?
     };
     for (body, (segment, _)) in island.ids.iter().zip(&steps) {

@@ -18,7 +18,9 @@ mod plan;
 mod shape;
 
 // The step, from the top down.
+mod capture;
 mod change;
+mod close_pass;
 mod constraint;
 mod contact_ends;
 mod drive;
@@ -29,6 +31,7 @@ mod group;
 mod impact;
 mod island;
 mod ledger;
+mod link;
 mod motion;
 mod nearest;
 mod neighbours;
@@ -46,9 +49,11 @@ mod account;
 mod contact;
 mod open_step;
 mod pair;
+mod place;
 mod queue;
 mod segment;
 mod state;
+mod way_in;
 
 // What looks on.
 mod books;

@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::body::{Bodies, Body, BodyId};
 use super::force::{ForceEntry, Subject};
 use super::method::Method;
+use super::place::Place;
 use super::report::Plan;
 use super::tiles::{Grid, StaticTiles};
 use crate::scene::{Diagnostic, SimParams};
@@ -47,9 +48,28 @@ impl Model {
         self.bodies.present_dynamic()
     }
 
+    /// What forces see of a dynamic body.
+    pub fn subject(&self, body: u32, time: f64, place: Place, velocity: DVec3) -> Subject<'_> {
+        let dynamic = self.dynamic(body);
+        Subject {
+            time,
+            position: place.x,
+            low: place.low,
+            velocity,
+            mass: dynamic.mass(),
+            radius: self.radius(body),
+            material: dynamic.material.as_deref(),
+        }
+    }
+
     /// Sum of the applied forces, N.
     pub fn applied_force(&self, subject: &Subject<'_>) -> DVec3 {
         self.forces.iter().map(|force| force.law.force(subject)).sum()
+    }
+
+    /// What the applied forces give a body, m/s².
+    pub fn applied_acceleration(&self, subject: &Subject<'_>) -> DVec3 {
+        self.applied_force(subject) / subject.mass
     }
 
     /// Whether flight is a parabola: all forces are uniform.

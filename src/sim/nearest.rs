@@ -8,7 +8,7 @@
 
 use glam::DVec3;
 
-use super::constraint::Link;
+use super::link::Link;
 use super::tolerance::{DEPENDENT, ENTERING, LEFT_OVER, SHARING};
 
 /// What [`nearest`] finds besides the motion.
@@ -96,11 +96,17 @@ struct Active {
     norm: f64,
 }
 
+/// Mass of a body, kg; 0 for one without inverse mass: no motion of it is ever compared with another.
+fn weight(inverse_mass: f64) -> f64 {
+    if inverse_mass > 0.0 { 1.0 / inverse_mass } else { 0.0 }
+}
+
 struct Search<'a> {
     links: &'a [Link],
     both: &'a [bool],
     inverse_mass: &'a [f64],
-    masses: Vec<f64>,
+    /// Weights of the bodies; 0 for one without inverse mass, which nothing moves.
+    weights: Vec<f64>,
     /// Length of each link's own coordinate.
     own: Vec<f64>,
     at: Vec<DVec3>,
@@ -125,7 +131,7 @@ impl<'a> Search<'a> {
             links,
             both,
             inverse_mass,
-            masses: inverse_mass.iter().map(|inverse| 1.0 / inverse).collect(),
+            weights: inverse_mass.iter().map(|inverse| weight(*inverse)).collect(),
             own,
             at: motion.to_vec(),
             at_own: vec![0.0; if sharing > 0.0 { links.len() } else { 0 }],
@@ -314,9 +320,9 @@ impl<'a> Search<'a> {
     }
 
     fn inner(&self, left: &Direction, right: &Direction) -> f64 {
-        let bodies = left.bodies.iter().zip(&right.bodies).zip(&self.masses);
+        let bodies = left.bodies.iter().zip(&right.bodies).zip(&self.weights);
         let own = left.own.iter().zip(&right.own);
-        bodies.map(|((l, r), mass)| mass * l.dot(*r)).sum::<f64>() + own.map(|(l, r)| l * r).sum::<f64>()
+        bodies.map(|((l, r), weight)| weight * l.dot(*r)).sum::<f64>() + own.map(|(l, r)| l * r).sum::<f64>()
     }
 
     /// Takes an active bound out and makes the directions after it anew.
@@ -336,5 +342,42 @@ impl<'a> Search<'a> {
                 && self.excess(k).abs() <= self.tolerance(k)
                 && self.beside_active(k, 1.0).2 == 0.0
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Symptom: not a number, wherever a body of infinite mass took part. Expected: the answer that a static body in
+    /// its place gives. Cause: its weight was 1/0, and what it moved 0.
+    #[test]
+    fn a_body_without_inverse_mass_is_met_as_a_static_one_is() {
+        let links = |below: Option<usize>| {
+            [
+                Link { a: 0, b: below, towards: DVec3::NEG_Y, limit: 0.0 },
+                Link { a: 0, b: Some(1), towards: DVec3::Y, limit: 0.0 },
+            ]
+        };
+        let start = [DVec3::new(1.0, -2.0, 0.0), DVec3::Y * -3.0];
+        for both in [[false, false], [true, true]] {
+            let mut on_static = start;
+            let expected = nearest(&links(None), &both, &[0.5, 0.25], &mut on_static);
+            let mut on_fixed = [start[0], start[1], DVec3::ZERO];
+            let found = nearest(&links(Some(2)), &both, &[0.5, 0.25, 0.0], &mut on_fixed);
+            assert_eq!(on_fixed, [on_static[0], on_static[1], DVec3::ZERO]);
+            assert_eq!(found.multipliers, expected.multipliers);
+            let responses =
+                [responses(&links(None), &[0.5, 0.25]), responses(&links(Some(2)), &[0.5, 0.25, 0.0])];
+            assert_eq!(responses[0], responses[1]);
+        }
+    }
+
+    #[test]
+    fn between_bodies_that_nothing_moves_no_force_acts() {
+        let link = Link { a: 0, b: Some(1), towards: DVec3::X, limit: 0.0 };
+        let mut motion = [DVec3::X, DVec3::ZERO];
+        let solved = nearest(&[link], &[false], &[0.0, 0.0], &mut motion);
+        assert_eq!((motion, solved.multipliers), ([DVec3::X, DVec3::ZERO], vec![0.0]));
     }
 }

@@ -99,7 +99,11 @@ fn predict_leaving(model: &Model, state: &mut State, body: u32, time: f64) {
     }
 }
 
+/// Predicts when a body comes within the core radius of an attractor on its present segment.
 pub(super) fn predict_core_passes(model: &Model, state: &mut State, body: u32, time: f64) {
+    if state.captured.contains(&body) {
+        return;
+    }
     for (index, force) in (0u32..).zip(&model.forces) {
         let Law::Point { center, intensity } = force.law else { continue };
         if intensity <= 0.0 {

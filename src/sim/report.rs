@@ -62,7 +62,7 @@ pub struct Momentum {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counters {
     /// Ledger rows by kind, in the order of [`super::EventKind::ALL`].
-    pub events: [u64; 7],
+    pub events: [u64; 8],
     /// Pairs whose time of impact was computed.
     pub pair_tests: u64,
     /// Times a body moved to other tiles.

@@ -1,4 +1,4 @@
-//! How bodies go on from an event: each in free flight, or held together with those it touches.
+//! How bodies go on from an event: in free flight, captured by an attractor, or held by those they touch.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::fault::{Fault, fault};
 use super::island::{Island, begin_island, connected, drop_unpressed, islands};
 use super::model::Model;
-use super::motion::begin_segment;
+use super::motion::{begin_segment, begin_stay};
 use super::neighbours::predict_all;
 use super::state::State;
 
@@ -24,32 +24,40 @@ pub(super) struct Start {
 enum Regime {
     /// In flight, under the applied forces alone.
     Free,
-    /// With all that it is in lasting contact with.
+    /// At the core of an attractor, where it stays.
+    Captured,
+    /// With all that it is in lasting contact with; among them one that is captured stays too.
     Held,
 }
 
 fn regime(state: &State, body: u32) -> Regime {
-    if state.contacts[body as usize].is_empty() { Regime::Free } else { Regime::Held }
+    if !state.contacts[body as usize].is_empty() {
+        Regime::Held
+    } else if state.captured.contains(&body) {
+        Regime::Captured
+    } else {
+        Regime::Free
+    }
 }
 
 /// Lets bodies go on, with all that they are in contact with: contacts that no longer hold are dropped,
 /// segments begin, and everything about them is predicted. All segments must stand before anything is
 /// predicted between them.
 pub(super) fn restart(model: &Model, state: &mut State, time: f64, starts: &[Start]) -> Result<(), Fault> {
-    if starts.iter().all(|start| regime(state, start.body) == Regime::Free) {
+    if starts.iter().all(|start| regime(state, start.body) != Regime::Held) {
         for start in starts {
-            begin_free(model, state, time, start)?;
+            begin_alone(model, state, time, start)?;
         }
         starts.iter().for_each(|start| predict_all(model, state, start.body, time));
         return Ok(());
     }
-    let (free, held): (Vec<Start>, Vec<Start>) =
-        starts.iter().partition(|start| regime(state, start.body) == Regime::Free);
-    for start in &free {
-        begin_free(model, state, time, start)?;
+    let (held, alone): (Vec<Start>, Vec<Start>) =
+        starts.iter().partition(|start| regime(state, start.body) == Regime::Held);
+    for start in &alone {
+        begin_alone(model, state, time, start)?;
     }
     let mut bodies = begin_islands(model, state, time, &held)?;
-    bodies.extend(free.iter().map(|start| start.body));
+    bodies.extend(alone.iter().map(|start| start.body));
     bodies.sort_unstable();
     bodies.into_iter().for_each(|body| predict_all(model, state, body, time));
     Ok(())
@@ -76,10 +84,10 @@ fn begin_islands(model: &Model, state: &mut State, time: f64, starts: &[Start]) 
     for ids in islands(state, &bodies) {
         let mut island = island(state, ids);
         match regime(state, island.ids[0]) {
-            Regime::Free => {
-                debug_assert_eq!(island.ids.len(), 1, "free bodies move alone");
+            Regime::Free | Regime::Captured => {
+                debug_assert_eq!(island.ids.len(), 1, "bodies without contact move alone");
                 let start = Start { body: island.ids[0], x: island.x[0], v: island.v[0] };
-                begin_free(model, state, time, &start)?;
+                begin_alone(model, state, time, &start)?;
             }
             Regime::Held => begin_island(model, state, &mut island, time)
                 .map_err(|(body, error)| fault(model, body, time, error))?,
@@ -88,7 +96,12 @@ fn begin_islands(model: &Model, state: &mut State, time: f64, starts: &[Start]) 
     Ok(bodies)
 }
 
-fn begin_free(model: &Model, state: &mut State, time: f64, start: &Start) -> Result<(), Fault> {
-    begin_segment(model, state, start.body, time, start.x, start.v)
-        .map_err(|error| fault(model, start.body, time, error))
+/// Lets a body go on that touches no other.
+fn begin_alone(model: &Model, state: &mut State, time: f64, start: &Start) -> Result<(), Fault> {
+    let Start { body, x, v } = *start;
+    let outcome = match regime(state, body) {
+        Regime::Captured => begin_stay(model, state, body, time, x),
+        Regime::Free | Regime::Held => begin_segment(model, state, body, time, x, v),
+    };
+    outcome.map_err(|error| fault(model, body, time, error))
 }

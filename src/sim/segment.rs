@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use super::place::Place;
+
 /// Highest power of the acceleration series of a field segment.
 pub(super) const SERIES: usize = 7;
 
@@ -34,8 +36,7 @@ pub(super) struct Segment {
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub(super) struct Series {
     pub b: [DVec3; SERIES],
-    /// What the start has beyond the digits of `Segment::x`, m: near an attractor far from the origin the
-    /// force needs them.
+    /// What the start has beyond the digits of `Segment::x`, m: see [`Place`].
     pub low: DVec3,
 }
 
@@ -69,12 +70,17 @@ pub(super) struct Path<'a> {
 
 impl Path<'_> {
     pub fn position(&self, time: f64) -> DVec3 {
-        self.segment.x + self.way(time)
+        let way = self.way(time);
+        self.segment.x + self.series.map_or(way, |series| series.low + way)
     }
 
-    /// The position, and what it has beyond its own digits.
-    pub fn position_split(&self, time: f64) -> (DVec3, DVec3) {
-        split(self.segment.x, self.way(time))
+    /// The position in all its digits.
+    pub fn place(&self, time: f64) -> Place {
+        self.start().moved(self.way(time))
+    }
+
+    fn start(&self) -> Place {
+        Place { x: self.segment.x, low: self.series.map_or(DVec3::ZERO, |series| series.low) }
     }
 
     /// How far the body has come since the start of the segment.
@@ -84,7 +90,7 @@ impl Path<'_> {
         let base = tau * (seg.v + (0.5 * tau) * seg.a);
         match self.series {
             None => base,
-            Some(series) => series.low + (base + (tau * tau) * series.position_term(tau / seg.step)),
+            Some(series) => base + (tau * tau) * series.position_term(tau / seg.step),
         }
     }
 
@@ -110,14 +116,6 @@ impl Path<'_> {
             Some(series) => seg.a + series.acceleration_term((time - seg.start) / seg.step),
         }
     }
-}
-
-/// x + way, and what is lost in that sum.
-pub(super) fn split(x: DVec3, way: DVec3) -> (DVec3, DVec3) {
-    let sum = x + way;
-    // Knuth's exact sum of two, for either may be the larger.
-    let of_way = sum - x;
-    (sum, (x - (sum - of_way)) + (way - of_way))
 }
 
 impl Series {

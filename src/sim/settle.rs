@@ -2,10 +2,11 @@
 
 use glam::DVec3;
 
-use super::constraint::{Link, enter_none};
+use super::constraint::enter_none;
 use super::geometry::smaller_radius;
 use super::group::{Group, Member};
 use super::island::{largest, pressed};
+use super::link::Link;
 use super::model::Model;
 use super::nearest::responses;
 use super::predict::touch_tolerance;

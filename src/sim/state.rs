@@ -1,6 +1,6 @@
 //! Everything that moves, as columns over the dynamic bodies.
 
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use glam::DVec3;
 
@@ -9,13 +9,13 @@ use super::body::{BodyId, Origin};
 use super::contact::Contact;
 use super::event::Event;
 use super::model::Model;
-use super::motion::Plunge;
 use super::open_step::OpenStep;
 use super::pair::Pair;
 use super::queue::{Kind, Predicted, Queue};
 use super::report::{ContactState, Counters};
 use super::segment::{Path, Segment, Series};
 use super::tiles::{DynamicTiles, TileRange};
+use super::way_in::Plunge;
 
 /// Mutable part of a simulation; a clone of it is a bit-exact snapshot.
 #[derive(Clone, Debug)]
@@ -34,6 +34,8 @@ pub(super) struct State {
     pub fields: Vec<FieldColumn>,
     /// Bodies close to an attractor, on their way in or back.
     pub plunges: BTreeMap<u32, Plunge>,
+    /// Bodies held at the core of an attractor: they stay where they are.
+    pub captured: BTreeSet<u32>,
     /// Lasting contacts; most bodies have none.
     pub contacts: Vec<Vec<Contact>>,
     /// Dynamic bodies that lie against each body and hardly move away, without lasting contact.
@@ -92,6 +94,7 @@ impl State {
             registered: Vec::with_capacity(origins.len()),
             fields: Vec::new(),
             plunges: BTreeMap::new(),
+            captured: BTreeSet::new(),
             contacts: Vec::with_capacity(origins.len()),
             touching: Vec::with_capacity(origins.len()),
             cascades: Vec::with_capacity(origins.len()),
@@ -168,9 +171,20 @@ impl State {
         self.queue.push(Predicted { time, kind, a: pair.first(), b: pair.b, stamp_a, stamp_b });
     }
 
-    /// How a body moves at a time, for people: a body in contact that neither moves nor is driven rests.
+    /// Whether a body moves for nobody: it is static, or captured.
+    pub fn is_fixed(&self, id: BodyId) -> bool {
+        id.dynamic().is_none_or(|body| self.captured.contains(&body))
+    }
+
+    /// 1/kg; 0 for a captured body.
+    pub fn inverse_mass(&self, model: &Model, body: u32) -> f64 {
+        if self.captured.contains(&body) { 0.0 } else { model.dynamic(body).inverse_mass() }
+    }
+
+    /// How a body moves at a time, for people: a body in contact that neither moves nor is driven rests, and so does
+    /// a captured one.
     pub fn contact_state(&self, body: u32, time: f64) -> ContactState {
-        if self.contacts[body as usize].is_empty() {
+        if self.contacts[body as usize].is_empty() && !self.captured.contains(&body) {
             return ContactState::Flight;
         }
         let path = self.path(body);

@@ -48,6 +48,20 @@ pub(super) const BOX_MARGIN: f64 = 1e-6;
 /// The same, as a part of the coordinates and of the size of a tile.
 pub(super) const BOX_ROUNDING: f64 = 1e-12;
 
+// Close passes of attractors.
+
+/// A predicted pass of an attractor farther off than so many core radii is none: the search gave up there.
+pub(super) const PASSED: f64 = 2.0;
+
+/// A body at the core whose orbit stays within so many core radii can't leave the core by itself: it is captured.
+/// Larger would take thin ellipses that are followed well.
+pub(super) const BOUND_ALONE: f64 = 2.0;
+
+/// The same for a body that loses energy to air or to others. At a core pass it is not retraced but turned back
+/// anew, which is good to the core radius over its apoapsis: below so many core radii a hundredth of the way is
+/// the core's own, and turns are so quick that none would end. Smaller follows millions of turns a second.
+pub(super) const BOUND_DISTURBED: f64 = 100.0;
+
 // Impact groups.
 
 /// Bodies that touch do so to within so many times [`TOUCH`] at least, however small the contact distance: below it

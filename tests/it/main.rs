@@ -77,11 +77,15 @@ mod scene_properties;
 mod scene_read;
 // Many bodies: what an edit costs, and whether it is right.
 mod scene_scale;
+// Capture at the core of an attractor.
+mod sim_capture;
 // Chains of impacts with known outcomes: head-on pairs, Newton's cradle, counting π.
 mod sim_chain;
 // Lasting contact: inclines, corners, edges, air, lifting off.
 mod sim_contact;
 // Bodies and forces changed while a simulation runs.
+// Drag where a body turns round, against closed forms.
+mod sim_drag;
 mod sim_edits;
 // Overlaps at the start, huge and tiny numbers, nothing at all.
 mod sim_extremes;
@@ -101,6 +105,8 @@ mod sim_invariance;
 mod sim_methods;
 // Random scenes against all pairs, the reference and conservation laws.
 mod sim_random;
+// Numbers at the ends of their range: bounded work; other units: the same bits.
+mod sim_range;
 // Times of impact against bisection, at the rims of plates and spheres.
 mod sim_roots;
 // Scenes scaled by powers of two in length, time and mass give the scaled bits.

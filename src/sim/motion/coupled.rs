@@ -3,10 +3,15 @@
 
 use glam::DVec3;
 
-use super::law::SegmentError;
-use super::radau::{
-    CONVERGED, LONGEST_STEP, MAX_PASSES, NODES, SAFETY, TO_POWERS, rounding_of, scale, update_difference,
+use super::SegmentError;
+use super::collocation::{Differences, NODES, beginning};
+use super::control::{
+    Accepted, Attempt, Beginning, Passes, accept, are_sound, first_guess, rounding_of, scale,
 };
+use super::law::limits;
+use super::smoothness::{Course, Smooth, drag_of};
+use super::tolerance::{MAX_PASSES, NOISE_GAIN};
+use crate::sim::model::Model;
 use crate::sim::segment::{SERIES, Segment, Series};
 use crate::sim::state::FieldColumn;
 
@@ -17,12 +22,20 @@ pub(in crate::sim) type Step = (Segment, Option<FieldColumn>);
 /// applied and the contact forces may all but cancel, and their rounding does not.
 pub(in crate::sim) type Field = (Vec<DVec3>, f64);
 
-/// One accepted step of all bodies from (x, v) at a time, of the same length. `hint` is the step to try
-/// first, s; 0 asks for one from the field itself.
+/// Where bodies in contact begin a step.
+pub(in crate::sim) struct CoupledStart<'a> {
+    pub model: &'a Model,
+    pub ids: &'a [u32],
+    pub time: f64,
+    pub x: &'a [DVec3],
+    pub v: &'a [DVec3],
+    /// The step to try first, s; 0 asks for one from the field itself.
+    pub hint: f64,
+}
+
+/// One accepted step of all bodies, of the same length.
 pub(in crate::sim) fn coupled_step(
-    (time, x, v): (f64, &[DVec3], &[DVec3]),
-    hint: f64,
-    tolerance: f64,
+    start: &CoupledStart<'_>,
     evaluations: &mut u64,
     mut accelerations: impl FnMut(f64, &[DVec3], &[DVec3]) -> Field,
 ) -> Result<Vec<Step>, SegmentError> {
@@ -30,94 +43,107 @@ pub(in crate::sim) fn coupled_step(
         *evaluations += x.len() as u64;
         accelerations(time, x, v)
     };
-    let (a0, _) = field(time, x, v);
-    if !a0.iter().chain(x).chain(v).all(|vector| vector.is_finite()) {
+    let (a0, size) = field(start.time, start.x, start.v);
+    if !(are_sound(a0.iter().chain(start.x).chain(start.v)) && size.is_finite()) {
         return Err(SegmentError::NotFinite);
     }
-    let start = Start { time, x, v, a0: &a0 };
-    let mut step = if hint > 0.0 { hint.min(LONGEST_STEP) } else { first_guess(&start, &mut field) };
-    loop {
-        if step < 1e-15 * time.abs().max(1e-3) {
-            return Err(SegmentError::Stalled);
-        }
-        let attempt = correct(&start, step, tolerance, &mut field);
-        let ratio = match attempt.error {
-            0.0 => f64::INFINITY,
-            error => libm::pow(tolerance / error, 1.0 / 7.0),
-        };
-        if !attempt.converged || ratio < SAFETY {
-            step *= if attempt.converged { ratio.max(0.02) } else { SAFETY };
-            continue;
-        }
-        let next_step = (step * ratio.min(1.0 / SAFETY)).min(LONGEST_STEP);
-        return Ok(start.segments(step, next_step, &attempt.series));
+    let courses = start.courses(&a0);
+    let resolved = courses.iter().map(Course::resolved).fold(f64::INFINITY, f64::min);
+    let limits = limits(start.model);
+    let first = start.first_step(&a0, size, &mut field).min(limits.longest).min(resolved);
+    let accepted = accept(
+        start.time,
+        first,
+        limits,
+        |step| correct(start, &a0, step, limits.tolerance, &mut field),
+        |step, series: &Vec<Series>, reach| {
+            let looks = courses.iter().zip(series).map(|(course, series)| course.look(series, step, reach));
+            looks.fold(Smooth::Yes, Smooth::and)
+        },
+    );
+    Ok(start.segments(&a0, &accepted?))
+}
+
+impl CoupledStart<'_> {
+    fn courses(&self, a0: &[DVec3]) -> Vec<Course> {
+        let bodies = self.ids.iter().zip(self.v.iter().zip(a0));
+        bodies.map(|(body, (v, a))| Course { drag: drag_of(self.model, *body), v: *v, a: *a }).collect()
     }
-}
 
-/// Where all bodies begin.
-struct Start<'a> {
-    time: f64,
-    x: &'a [DVec3],
-    v: &'a [DVec3],
-    a0: &'a [DVec3],
-}
+    /// The step to try first, s.
+    fn first_step(
+        &self,
+        a0: &[DVec3],
+        size: f64,
+        field: &mut impl FnMut(f64, &[DVec3], &[DVec3]) -> Field,
+    ) -> f64 {
+        if self.hint > 0.0 {
+            return self.hint;
+        }
+        // At rest the accelerations are what rounding leaves of the applied ones.
+        let bodies = self.ids.iter().zip(self.v).map(|(body, v)| Beginning {
+            radius: self.model.radius(*body),
+            speed: v.length(),
+            acceleration: size,
+        });
+        first_guess(&bodies, |probe| {
+            let ways = self.v.iter().zip(a0).map(|(v, a)| probe * (*v + (0.5 * probe) * *a));
+            let x: Vec<DVec3> = self.x.iter().zip(ways).map(|(x, way)| *x + way).collect();
+            let v: Vec<DVec3> = self.v.iter().zip(a0).map(|(v, a)| *v + probe * *a).collect();
+            let (ahead, size) = field(self.time + probe, &x, &v);
+            let changes = ahead.iter().zip(a0).map(|(ahead, a0)| (*ahead - *a0).length());
+            (size, changes.fold(0.0, f64::max))
+        })
+    }
 
-impl Start<'_> {
-    fn segments(&self, step: f64, next_step: f64, series: &[Series]) -> Vec<Step> {
+    fn segments(&self, a0: &[DVec3], accepted: &Accepted<Vec<Series>>) -> Vec<Step> {
+        let Accepted { step, share, next_step, series } = accepted;
+        let step = share * step;
         let one = |(body, series): (usize, &Series)| {
+            let series = beginning(series, *share);
             let segment = Segment {
                 end: self.time + step,
-                acceleration_bound: self.a0[body].length() + series.bound(),
+                acceleration_bound: a0[body].length() + series.bound(),
                 step,
-                ..Segment::ballistic(self.time, self.x[body], self.v[body], self.a0[body])
+                ..Segment::ballistic(self.time, self.x[body], self.v[body], a0[body])
             };
-            (segment, Some(FieldColumn { series: *series, next_step }))
+            (segment, Some(FieldColumn { series, next_step: *next_step }))
         };
         series.iter().enumerate().map(one).collect()
     }
 }
 
-struct Attempt {
-    series: Vec<Series>,
-    converged: bool,
-    /// Largest |b₆| over the largest applied acceleration of the step.
-    error: f64,
-}
-
-/// Gauss–Seidel passes over the nodes until the last coefficients stand still.
+/// Gauss–Seidel passes over the nodes until the last coefficients stand still. The error is judged by the
+/// largest applied acceleration of the step.
 fn correct(
-    start: &Start<'_>,
+    start: &CoupledStart<'_>,
+    a0: &[DVec3],
     step: f64,
     tolerance: f64,
     field: &mut impl FnMut(f64, &[DVec3], &[DVec3]) -> Field,
-) -> Attempt {
-    let count = start.x.len();
-    let mut series = vec![Series::default(); count];
-    let mut differences = vec![[DVec3::ZERO; SERIES]; count];
+) -> Attempt<Vec<Series>> {
+    let mut series = vec![Series::default(); start.x.len()];
+    let mut differences: Vec<Differences> = series.iter().map(Differences::of).collect();
     let (mut x, mut v) = (start.x.to_vec(), start.v.to_vec());
-    let mut attempt = Attempt { series: Vec::new(), converged: false, error: f64::INFINITY };
-    let (mut last_change, mut noise, mut size) = (f64::INFINITY, 0.0_f64, 0.0_f64);
+    let mut passes = Passes::new();
+    let (mut noise, mut size) = (0.0_f64, 0.0_f64);
     for _ in 0..MAX_PASSES {
         let mut change = 0.0_f64;
         (noise, size) = (0.0, f64::MIN_POSITIVE);
-        for n in 1..=SERIES {
-            let tau = NODES[n] * step;
-            for body in 0..count {
-                let (a0, b) = (start.a0[body], &series[body]);
-                x[body] =
-                    start.x[body] + tau * (start.v[body] + tau * (0.5 * a0 + b.position_term(NODES[n])));
-                v[body] = start.v[body] + tau * (a0 + b.velocity_term(NODES[n]));
+        for (n, node) in NODES.iter().enumerate().skip(1) {
+            let tau = node * step;
+            for body in 0..x.len() {
+                let (a0, b) = (a0[body], &series[body]);
+                x[body] = start.x[body] + tau * (start.v[body] + tau * (0.5 * a0 + b.position_term(*node)));
+                v[body] = start.v[body] + tau * (a0 + b.velocity_term(*node));
             }
             let (a, applied) = field(start.time + tau, &x, &v);
-            if !a.iter().all(|a| a.is_finite()) {
-                return attempt;
+            if !(are_sound(a.iter()) && applied.is_finite()) {
+                return Attempt { series, converged: false, error: f64::INFINITY };
             }
-            for body in 0..count {
-                let rise = a[body] - start.a0[body];
-                let delta = update_difference(&mut differences[body], n, rise);
-                for (b, power) in series[body].b.iter_mut().zip(TO_POWERS[n - 1]).take(n) {
-                    *b += power * delta;
-                }
+            for body in 0..x.len() {
+                let rise = a[body] - a0[body];
+                let delta = differences[body].update(&mut series[body], n, rise);
                 size = size.max(scale(applied, start.v[body], step));
                 if n == SERIES {
                     change = change.max(delta.length());
@@ -126,33 +152,11 @@ fn correct(
                 }
             }
         }
-        let relative = change / size;
-        let stagnant = (noise / size).max(1e-12);
-        if relative <= CONVERGED || (relative < stagnant && relative >= last_change) {
-            last_change = 0.0;
+        if passes.end(change / size, noise / size) {
             break;
         }
-        if relative > 1e3 * last_change {
-            break;
-        }
-        last_change = relative;
     }
-    attempt.converged = last_change < 1e-3 * tolerance;
     let last = series.iter().map(|series| series.b[SERIES - 1].length()).fold(0.0, f64::max);
-    attempt.error = (last - noise).max(0.0) / size;
-    attempt.series = series;
-    attempt
-}
-
-/// By how much the divided differences enlarge the rounding of an acceleration in b₆, with contacts.
-const NOISE_GAIN: f64 = 1e3;
-
-/// A tenth of the time in which the accelerations change by themselves along the motion.
-fn first_guess(start: &Start<'_>, field: &mut impl FnMut(f64, &[DVec3], &[DVec3]) -> Field) -> f64 {
-    const PROBE: f64 = 1e-6;
-    let x: Vec<DVec3> = start.x.iter().zip(start.v).map(|(x, v)| *x + PROBE * *v).collect();
-    let v: Vec<DVec3> = start.v.iter().zip(start.a0).map(|(v, a)| *v + PROBE * *a).collect();
-    let (ahead, size) = field(start.time + PROBE, &x, &v);
-    let rise = ahead.iter().zip(start.a0).map(|(ahead, a0)| (*ahead - *a0).length()).fold(0.0, f64::max);
-    if rise > 0.0 && size > 0.0 { (0.1 * size * PROBE / rise).clamp(1e-5, 0.1) } else { 0.01 }
+    let error = (last - noise).max(0.0) / size;
+    Attempt { series, converged: passes.have_converged(tolerance), error }
 }

@@ -2,29 +2,20 @@
 
 use glam::DVec3;
 
-use super::plunge::{self, Next, Point};
-use super::radau::{RadauError, RadauStart, radau_step};
+use super::SegmentError;
+use super::control::{Limits, are_sound};
+use super::plunge::{Way, way_on};
+use super::radau::{RadauStart, radau_step};
+use super::smoothness::drag_of;
+use super::tolerance::{FOR_EVER, INSIDE, LONGEST_STEP};
 use crate::sim::books::book_segment;
-use crate::sim::force::{Law, Subject};
+use crate::sim::force::Law;
 use crate::sim::model::Model;
+use crate::sim::place::Place;
 use crate::sim::segment::Segment;
 use crate::sim::state::{FieldColumn, State};
 
-/// Why a body has no motion from here on.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::sim) enum SegmentError {
-    NotFinite,
-    Stalled,
-    /// The centre lies within the core of a point attractor, where its force has no meaning.
-    InCore,
-}
-
-/// Sum of the applied forces, N.
-pub(in crate::sim) fn applied_force(model: &Model, subject: &Subject<'_>) -> DVec3 {
-    model.applied_force(subject)
-}
-
-/// Lets a body without lasting contacts go on from (x, v) at `time`: books the old segment, begins the new
+/// Lets a body fly on from (x, v) at `time`: books the old segment, begins the new
 /// one, and makes every prediction about the old one stale. An error leaves all as it was.
 pub(in crate::sim) fn begin_segment(
     model: &Model,
@@ -35,13 +26,29 @@ pub(in crate::sim) fn begin_segment(
     v: DVec3,
 ) -> Result<(), SegmentError> {
     let (segment, column) = if model.is_ballistic() {
-        let subject = subject_at(model, body, time, x, v);
-        (Segment::ballistic(time, x, v, applied_force(model, &subject) / subject.mass), None)
+        let subject = model.subject(body, time, Place::exact(x), v);
+        (Segment::ballistic(time, x, v, model.applied_acceleration(&subject)), None)
     } else {
-        integrated(model, state, body, time, x, v)?
+        let why = |error| if in_core(model, x) { SegmentError::InCore } else { error };
+        integrated(model, state, body, time, (x, v)).map_err(why)?
     };
     check(model, &segment)?;
     place(model, state, body, segment, column);
+    Ok(())
+}
+
+/// Lets a body stay where it is from `time` on. An error leaves all as it was.
+pub(in crate::sim) fn begin_stay(
+    model: &Model,
+    state: &mut State,
+    body: u32,
+    time: f64,
+    x: DVec3,
+) -> Result<(), SegmentError> {
+    let still = Segment::ballistic(time, x, DVec3::ZERO, DVec3::ZERO);
+    let segment = Segment { constrained: true, ..still };
+    check(model, &segment)?;
+    place(model, state, body, segment, None);
     Ok(())
 }
 
@@ -50,8 +57,8 @@ pub(in crate::sim) fn check(model: &Model, segment: &Segment) -> Result<(), Segm
     if in_core(model, segment.x) {
         return Err(SegmentError::InCore);
     }
-    // The squares too: searches work with lengths, and do not end on infinite ones.
-    if [segment.x, segment.v, segment.a].iter().all(|vector| vector.length_squared().is_finite()) {
+    let bounds = segment.acceleration_bound * DVec3::X;
+    if are_sound([segment.x, segment.v, segment.a, bounds].iter()) {
         Ok(())
     } else {
         Err(SegmentError::NotFinite)
@@ -95,7 +102,7 @@ pub(in crate::sim) fn step_hint(state: &State, body: u32, time: f64) -> f64 {
 fn in_core(model: &Model, at: DVec3) -> bool {
     model.forces.iter().any(|force| match force.law {
         Law::Point { center, intensity } if intensity > 0.0 => {
-            (at - center).length() < 0.5 * model.params.core_radius
+            (at - center).length() < INSIDE * model.params.core_radius
         }
         Law::Point { center, intensity } if intensity < 0.0 => at == center,
         _ => false,
@@ -109,66 +116,40 @@ fn integrated(
     state: &mut State,
     body: u32,
     time: f64,
-    x: DVec3,
-    v: DVec3,
+    start: (DVec3, DVec3),
 ) -> Result<(Segment, Option<FieldColumn>), SegmentError> {
     let old = state.segments[body as usize];
     let column = state.fields.get(body as usize).copied().unwrap_or_default();
     let goes_on = old.step > 0.0 && old.end == time && !old.constrained;
-    let from = match plunge::next(state, body, time, v) {
-        Some(Next::Leg(leg)) => {
-            let (segment, series) = *leg;
+    let from = match way_on(model, state, body, time, start) {
+        Way::Back(step) => {
+            let (segment, series) = *step;
             return Ok((segment, Some(FieldColumn { series, next_step: segment.step })));
         }
-        Some(Next::Out(from)) => from,
-        None => {
-            plunge::remember(model, state, body, time);
-            Point { x, low: low_part(state, body, time, x), v }
-        }
+        Way::On(from) => from,
     };
     let start = RadauStart {
         time,
-        x: from.x,
-        low: from.low,
+        place: from.place,
         v: from.v,
         reads_position: model.forces.iter().any(|force| matches!(force.law, Law::Custom(_))),
         step: column.next_step,
         previous: goes_on.then_some((&column.series, old.step)),
-        tolerance: model.params.field_tolerance,
-    };
-    let step = radau_step(&start, &mut state.counters.force_evaluations, |time, at, v| {
-        let subject = Subject { low: at.low, ..subject_at(model, body, time, at.x, v) };
-        applied_force(model, &subject) / subject.mass
-    });
-    let (segment, series, next_step) = step.map_err(|error| match error {
-        RadauError::NotFinite => SegmentError::NotFinite,
-        RadauError::Stalled => SegmentError::Stalled,
-    })?;
-    Ok((segment, Some(FieldColumn { series, next_step })))
-}
-
-/// What a body that goes on from where it is has beyond the digits of its position, m.
-fn low_part(state: &State, body: u32, time: f64, x: DVec3) -> DVec3 {
-    let path = state.path(body);
-    let (at, low) = path.position_split(time);
-    if path.series.is_some() && at == x { low } else { DVec3::ZERO }
-}
-
-pub(in crate::sim) fn subject_at(
-    model: &Model,
-    body: u32,
-    time: f64,
-    position: DVec3,
-    velocity: DVec3,
-) -> Subject<'_> {
-    let dynamic = model.dynamic(body);
-    Subject {
-        time,
-        position,
-        low: DVec3::ZERO,
-        velocity,
-        mass: dynamic.mass(),
         radius: model.radius(body),
-        material: dynamic.material.as_deref(),
+        drag: drag_of(model, body),
+        limits: limits(model),
+    };
+    let (segment, column) = radau_step(&start, &mut state.counters.force_evaluations, |time, place, v| {
+        model.applied_acceleration(&model.subject(body, time, place, v))
+    })?;
+    Ok((segment, Some(column)))
+}
+
+/// What bounds the steps of the integrators.
+pub(super) fn limits(model: &Model) -> Limits {
+    let is_custom = model.forces.iter().any(|force| matches!(force.law, Law::Custom(_)));
+    Limits {
+        tolerance: model.params.field_tolerance,
+        longest: if is_custom { LONGEST_STEP } else { FOR_EVER },
     }
 }

@@ -1,12 +1,26 @@
 //! How bodies move between events: closed forms where the forces are constant, a series where not.
 
+mod collocation;
+mod control;
 mod coupled;
 mod law;
 mod plunge;
 mod quadrature;
 mod radau;
+mod smoothness;
+mod tolerance;
 
-pub(super) use coupled::{Step, coupled_step};
-pub(super) use law::{SegmentError, applied_force, begin_segment, check, place, step_hint, subject_at};
-pub(super) use plunge::{Plunge, turn_back};
+pub(super) use coupled::{CoupledStart, Step, coupled_step};
+pub(super) use law::{begin_segment, begin_stay, check, place, step_hint};
+pub(super) use plunge::turn_back;
 pub(super) use quadrature::integrate;
+
+/// Why a body has no motion from here on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum SegmentError {
+    NotFinite,
+    /// The step fell below the resolution of time: the field is singular or not smooth here.
+    Stalled,
+    /// The centre lies within the core of a point attractor, where its force has no meaning.
+    InCore,
+}

@@ -6,72 +6,64 @@
 
 use glam::DVec3;
 
-use super::radau::extrapolate;
+use super::collocation::{beginning, extrapolate};
+use super::tolerance::REMEMBERED;
 use crate::sim::force::Law;
 use crate::sim::model::Model;
+use crate::sim::place::Place;
 use crate::sim::segment::{Segment, Series};
 use crate::sim::state::State;
+use crate::sim::way_in::{Leg, Plunge, Point, Turn};
 
-/// Within so many core radii of an attractor the way is remembered. Farther off the potential is flat
-/// enough to lose nothing to rounding.
-const REMEMBERED: f64 = 1e4;
-
-/// A step on the way in.
-#[derive(Clone, Copy, Debug)]
-struct Leg {
-    segment: Segment,
-    series: Series,
-    /// How long it lasted, s.
-    length: f64,
+/// How a body in a field goes on.
+pub(super) enum Way {
+    /// By the next step of its way back.
+    Back(Box<(Segment, Series)>),
+    /// By a step of the integrator.
+    On(Point),
 }
 
-/// A body on its way into an attractor, or back.
-#[derive(Clone, Debug)]
-pub(in crate::sim) struct Plunge {
-    legs: Vec<Leg>,
-    back: Option<Turn>,
+/// How a body goes on from (x, v). What it does is remembered if it leads into an attractor.
+pub(super) fn way_on(model: &Model, state: &mut State, body: u32, time: f64, (x, v): (DVec3, DVec3)) -> Way {
+    if let Some(way) = way_back(state, body, time, v) {
+        return way;
+    }
+    remember(model, state, body, time);
+    let path = state.path(body);
+    let place = path.place(time);
+    let goes_on = path.series.is_some() && place.x == x;
+    Way::On(Point { place: if goes_on { place } else { Place::exact(x) }, v })
 }
 
-/// Where the next leg of the way back begins.
-#[derive(Clone, Copy, Debug)]
-struct Turn {
-    time: f64,
-    from: Point,
-}
-
-/// A start of the integrator.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Point {
-    pub x: DVec3,
-    pub low: DVec3,
-    pub v: DVec3,
-}
-
-/// What comes next on the way back.
-pub(super) enum Next {
-    Leg(Box<(Segment, Series)>),
-    /// The way back ends here, where it had begun.
-    Out(Point),
+/// Turns a body back on its way at the core; false where the way can't be retraced.
+pub(in crate::sim) fn turn_back(model: &Model, state: &mut State, body: u32, time: f64) -> bool {
+    let old = &state.segments[body as usize];
+    if old.step == 0.0 || old.constrained || !is_reversible(model) {
+        return false;
+    }
+    let from = Point { place: state.path(body).place(time), v: -state.velocity(body, time) };
+    push(state, body, time).back = Some(Turn { time, from });
+    true
 }
 
 /// Remembers the step that ends at `time` if it leads into an attractor; forgets the way if it does not.
-pub(super) fn remember(model: &Model, state: &mut State, body: u32, time: f64) {
-    let old = state.segments[body as usize];
-    let leads_in = old.step > 0.0 && old.end == time && !old.constrained && falls_in(model, &old);
-    if leads_in {
+fn remember(model: &Model, state: &mut State, body: u32, time: f64) {
+    let old = &state.segments[body as usize];
+    if old.step > 0.0 && old.end == time && !old.constrained && falls_in(model, old) {
         push(state, body, time);
     } else {
         state.plunges.remove(&body);
     }
 }
 
-fn push(state: &mut State, body: u32, time: f64) {
+fn push(state: &mut State, body: u32, time: f64) -> &mut Plunge {
     let segment = state.segments[body as usize];
     let leg = Leg { segment, series: state.fields[body as usize].series, length: time - segment.start };
-    let plunge = state.plunges.entry(body).or_insert(Plunge { legs: Vec::new(), back: None });
+    let plunge = state.plunges.entry(body).or_default();
     if leg.length > 0.0 {
         plunge.legs.push(leg);
     }
+    plunge
 }
 
 fn falls_in(model: &Model, segment: &Segment) -> bool {
@@ -91,23 +83,8 @@ fn is_reversible(model: &Model) -> bool {
     model.forces.iter().all(|force| matches!(force.law, Law::Point { .. }) || force.law.is_uniform())
 }
 
-/// Turns a body back on its way at the core; false where the way can't be retraced.
-pub(in crate::sim) fn turn_back(model: &Model, state: &mut State, body: u32, time: f64) -> bool {
-    let old = state.segments[body as usize];
-    if old.step == 0.0 || old.constrained || !is_reversible(model) {
-        return false;
-    }
-    let (x, low) = state.path(body).position_split(time);
-    let from = Point { x, low, v: -state.velocity(body, time) };
-    push(state, body, time);
-    if let Some(plunge) = state.plunges.get_mut(&body) {
-        plunge.back = Some(Turn { time, from });
-    }
-    true
-}
-
-/// The next step of a body on its way back; `None` for one that is not, or was disturbed.
-pub(super) fn next(state: &mut State, body: u32, time: f64, v: DVec3) -> Option<Next> {
+/// The next step of a body on its way back, or where that ends; `None` for one that is not, or was disturbed.
+fn way_back(state: &mut State, body: u32, time: f64, v: DVec3) -> Option<Way> {
     let turn = state.plunges.get(&body)?.back?;
     let now = state.velocity(body, time);
     if turn.time != time || state.segments[body as usize].step == 0.0 || (v != now && v != -now) {
@@ -117,34 +94,26 @@ pub(super) fn next(state: &mut State, body: u32, time: f64, v: DVec3) -> Option<
     let plunge = state.plunges.get_mut(&body)?;
     let Some(leg) = plunge.legs.pop() else {
         state.plunges.remove(&body);
-        return Some(Next::Out(turn.from));
+        return Some(Way::On(turn.from));
     };
-    let reversed = leg.reversed(time, &turn.from);
-    let from = Point { x: leg.segment.x, low: leg.series.low, v: -leg.segment.v };
+    let reversed = reversed(&leg, time, &turn.from);
+    let from = Point { place: Place { x: leg.segment.x, low: leg.series.low }, v: -leg.segment.v };
     plunge.back = Some(Turn { time: reversed.0.end, from });
-    Some(Next::Leg(Box::new(reversed)))
+    Some(Way::Back(Box::new(reversed)))
 }
 
-impl Leg {
-    /// The same way from its end to its start: a'(s) = a(1 − s).
-    fn reversed(&self, time: f64, from: &Point) -> (Segment, Series) {
-        let mut part = self.series;
-        let share = self.length / self.segment.step;
-        let mut power = 1.0;
-        for b in &mut part.b {
-            power *= share;
-            *b *= power;
-        }
-        let series = Series { low: from.low, ..extrapolate(&part, -1.0) };
-        let segment = Segment {
-            start: time,
-            end: time + self.length,
-            x: from.x,
-            v: from.v,
-            a: self.segment.a + part.acceleration_term(1.0),
-            step: self.length,
-            ..self.segment
-        };
-        (segment, series)
-    }
+/// The same way from its end to its start: a'(s) = a(1 − s).
+fn reversed(leg: &Leg, time: f64, from: &Point) -> (Segment, Series) {
+    let part = beginning(&leg.series, leg.length / leg.segment.step);
+    let series = Series { low: from.place.low, ..extrapolate(&part, -1.0) };
+    let segment = Segment {
+        start: time,
+        end: time + leg.length,
+        x: from.place.x,
+        v: from.v,
+        a: leg.segment.a + part.acceleration_term(1.0),
+        step: leg.length,
+        ..leg.segment
+    };
+    (segment, series)
 }

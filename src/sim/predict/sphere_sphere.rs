@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::advance::{Search, first_contact as advance};
 use super::gap::{Ball, Gap, snap, snap_pressure};
+use crate::sim::segment::Path;
 use crate::sim::shape::direction;
 use crate::sim::tolerance::SURELY_APART;
 
@@ -31,8 +32,21 @@ pub(super) fn first_contact(a: Ball<'_>, b: Ball<'_>, from: f64, slack: impl FnO
         let tau = straight(position, velocity_b - velocity_a, speeds, a.radius + b.radius);
         return tau.map(|tau| from + tau).filter(|time| *time <= until);
     }
-    let acceleration_bound = (!parabolas).then_some(seg_a.acceleration_bound + seg_b.acceleration_bound);
+    let acceleration_bound = (!parabolas).then(|| relative_bound(a.path, b.path));
     advance(Search { from, until, acceleration_bound, slack: slack() }, |time| gap(a, b, time))
+}
+
+/// Upper bound of the relative acceleration, m/s². Bodies integrated together move almost as one: what counts is
+/// the difference of their series, or the search would creep along beside each other.
+fn relative_bound(a: Path<'_>, b: Path<'_>) -> f64 {
+    let (seg_a, seg_b) = (a.segment, b.segment);
+    match (a.series, b.series) {
+        (Some(series_a), Some(series_b)) if seg_a.start == seg_b.start && seg_a.step == seg_b.step => {
+            let terms = series_a.b.iter().zip(&series_b.b);
+            (seg_b.a - seg_a.a).length() + terms.map(|(a, b)| (*b - *a).length()).sum::<f64>()
+        }
+        _ => seg_a.acceleration_bound + seg_b.acceleration_bound,
+    }
 }
 
 /// Whether two dynamic spheres fly straight as seen from each other and pass or part: a quick look that is

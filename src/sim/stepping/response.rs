@@ -17,7 +17,7 @@ fn respond(model: &Model, state: &mut State, hit: &Hit) -> Result<(), Fault> {
     }
     let impulse = exchange(model, state, hit.time, hit.pair, &gap);
     for (body, impulse) in hit.pair.dynamic().zip([-impulse, impulse]) {
-        let change = velocity_change(model, body, impulse, gap.normal);
+        let change = velocity_change(model, state, body, impulse, gap.normal);
         let (x, v) = (state.position(body, hit.time), state.velocity(body, hit.time));
         trial::begin(model, state, body, hit.time, x, v + change)?;
     }

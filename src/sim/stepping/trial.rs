@@ -7,7 +7,6 @@ use crate::sim::fault::Fault;
 use crate::sim::force::{Law, Subject};
 use crate::sim::method::Method;
 use crate::sim::model::Model;
-use crate::sim::motion::applied_force;
 use crate::sim::segment::Segment;
 use crate::sim::state::State;
 
@@ -59,7 +58,7 @@ fn reads_velocity(law: &Law) -> bool {
 
 fn acceleration(model: &Model, state: &mut State, at: &Subject<'_>) -> DVec3 {
     state.counters.force_evaluations += 1;
-    applied_force(model, at) / at.mass
+    model.applied_acceleration(at)
 }
 
 fn replace(model: &Model, state: &mut State, body: u32, segment: Segment) -> Result<(), Fault> {
