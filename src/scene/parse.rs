@@ -7,6 +7,7 @@ use quick_xml::Reader;
 use quick_xml::errors::IllFormedError;
 use quick_xml::events::Event;
 
+use super::declaration;
 use super::rules::{MAX_DEPTH, MAX_NODES, is_name, is_xml_char};
 use super::shown;
 use super::tree::{Child, Children, Element, Keys, NO_PLACE, Text, tag};
@@ -119,8 +120,14 @@ impl<'a> Parser<'a> {
             }
             Event::PI(content) => {
                 let target = content.target();
-                if !is_name(target) || target.eq_ignore_ascii_case("xml") {
-                    return Err(self.fault(start, "a processing instruction has no valid name", ""));
+                if target.eq_ignore_ascii_case("xml") {
+                    let message = format!("a processing instruction is called {target}, which XML reserves");
+                    let hint = "the declaration is written <?xml …?> at the very start; remove this one";
+                    return Err(self.fault(start, &message, hint));
+                }
+                if !is_name(target) {
+                    let hint = "an instruction is written <?name …?>";
+                    return Err(self.fault(start, "a processing instruction has no valid name", hint));
                 }
                 self.push(start, end);
             }
@@ -128,6 +135,9 @@ impl<'a> Parser<'a> {
                 if start > 0 || !self.whole {
                     let hint = "move <?xml …?> to the very start of the file, or remove it";
                     return Err(self.fault(start, "an XML declaration stands inside the file", hint));
+                }
+                if let Err(bad) = declaration::check(piece) {
+                    return Err(self.fault(start + bad.at, &bad.message, bad.hint));
                 }
                 self.push(start, end);
             }
@@ -155,19 +165,20 @@ impl<'a> Parser<'a> {
             let hint = "a < that starts no tag is written &lt;";
             return Err(self.fault(at, "this is not a valid name of an element", hint));
         }
-        self.check_attributes(at, tag)?;
+        // Open already, so that a fault in the tag names its element.
         self.open.push(Open { at, key: self.keys.fresh(), tag, children: Vec::new() });
-        Ok(())
+        self.check_attributes(at, tag)
     }
 
     fn check_attributes(&mut self, at: usize, tag: &'a str) -> Result<(), ParseFault> {
         let mut names = std::mem::take(&mut self.names);
         names.clear();
         for attr in tag::attributes(tag) {
-            let attr = attr.map_err(|fault| self.fault(at + fault.at, fault.message, ""))?;
+            let attr = attr.map_err(|bad| self.fault(at + bad.at, bad.fault.message(), bad.fault.hint()))?;
             let here = at + attr.whole.start + 1;
             if !is_name(attr.name) {
-                return Err(self.fault(here, "this is not a valid name of an attribute", ""));
+                let hint = "a name begins with a letter and has letters and digits";
+                return Err(self.fault(here, "this is not a valid name of an attribute", hint));
             }
             if attr.raw.contains('<') {
                 return Err(self.fault(at + attr.value.start, "a value contains <", "write it as &lt;"));

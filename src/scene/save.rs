@@ -3,19 +3,31 @@
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::time::{Duration, SystemTime};
 
 /// Writes a file: a temporary one beside it, synced, then renamed over it. A link is followed, the
-/// permissions of an existing file are kept, and a write-protected file is refused. What holds no bytes of
-/// its own, such as `/dev/null` or a pipe, is written to as it is.
+/// permissions and, as far as the system lets us, the owner of an existing file are kept, and a write-protected
+/// file is refused. What holds no bytes of its own, such as `/dev/null` or a pipe, is written to as it is.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    write(path, bytes, false)
+}
+
+/// As [`write_atomically`], and a new file can be read by its owner alone.
+pub fn write_private(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    write(path, bytes, true)
+}
+
+fn write(path: &Path, bytes: &[u8], private: bool) -> io::Result<()> {
     let target = Target::of(path)?;
     if target.is_stream() {
         return File::options().write(true).open(&target.path)?.write_all(bytes);
     }
-    let mut temporary = target.temporary()?;
+    remove_stale(target.folder());
+    let mut temporary = target.temporary(private)?;
     // Not through the temporary file itself, whose errors tell its name.
     temporary.as_file_mut().write_all(bytes)?;
     if let Some(metadata) = &target.existing {
+        keep_owner(temporary.as_file(), metadata);
         temporary.as_file().set_permissions(metadata.permissions())?;
     }
     temporary.as_file().sync_all()?;
@@ -27,7 +39,7 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
 /// Whether [`write_atomically`] could begin now, so that a long computation need not end in vain.
 pub fn check_writable(path: &Path) -> io::Result<()> {
     let target = Target::of(path)?;
-    if target.is_stream() { Ok(()) } else { target.temporary().map(drop) }
+    if target.is_stream() { Ok(()) } else { target.temporary(false).map(drop) }
 }
 
 /// Where a file goes: links followed, and what is there now.
@@ -68,8 +80,9 @@ impl Target {
         folder_of(&self.path)
     }
 
-    fn temporary(&self) -> io::Result<tempfile::NamedTempFile> {
-        temporary_in(self.folder()).map_err(|err| about_folder(&err, self.folder()))
+    fn temporary(&self, private: bool) -> io::Result<tempfile::NamedTempFile> {
+        temporary_in(self.folder(), private || self.existing.is_some())
+            .map_err(|err| about_folder(&err, self.folder()))
     }
 }
 
@@ -124,16 +137,105 @@ fn follow_links(path: &Path) -> io::Result<PathBuf> {
     Err(io::Error::other("too many levels of symbolic links"))
 }
 
-fn temporary_in(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
+const PREFIX: &str = ".polyscene-";
+const SUFFIX: &str = ".tmp";
+
+/// `private`: what it replaces may be readable by fewer people than a new file.
+fn temporary_in(folder: &Path, private: bool) -> io::Result<tempfile::NamedTempFile> {
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".polyscene-").suffix(".tmp");
+    builder.prefix(PREFIX).suffix(SUFFIX);
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
         // What any new file gets; the umask takes its part away.
-        builder.permissions(fs::Permissions::from_mode(0o666));
+        builder.permissions(fs::Permissions::from_mode(if private { 0o600 } else { 0o666 }));
     }
-    builder.tempfile_in(folder)
+    let file = builder.tempfile_in(folder)?;
+    // Tells other runs that this one lives. Where locks are not supported, its age has to.
+    let _ = file.as_file().try_lock();
+    Ok(file)
+}
+
+/// A save takes less, however slow the disk.
+const LONGEST_SAVE: Duration = Duration::from_secs(60);
+/// Where the lock can't be asked.
+const SURELY_STALE: Duration = Duration::from_secs(24 * 3600);
+
+/// Removes temporary files of runs that were killed while they saved here: old ones that nobody holds locked.
+fn remove_stale(folder: &Path) {
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for entry in entries.flatten() {
+        let is_ours =
+            entry.file_name().to_str().is_some_and(|name| name.starts_with(PREFIX) && name.ends_with(SUFFIX));
+        if is_ours && is_stale(&entry) {
+            // One that can't be removed stays; that is no reason not to save.
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+fn is_stale(entry: &fs::DirEntry) -> bool {
+    // Of the entry itself: a link is none of ours.
+    let Ok(metadata) = entry.metadata() else { return false };
+    let age = metadata.modified().ok().and_then(|time| time.elapsed().ok()).unwrap_or_default();
+    if !metadata.is_file() || age < LONGEST_SAVE {
+        return false;
+    }
+    match File::open(entry.path()).map(|file| file.try_lock()) {
+        Ok(Ok(())) => true,
+        Ok(Err(fs::TryLockError::WouldBlock)) => false,
+        Ok(Err(fs::TryLockError::Error(_))) | Err(_) => age >= SURELY_STALE,
+    }
+}
+
+/// Gives a file the owner and group of the one it replaces. Only root may give files away, so for others this
+/// keeps what is possible.
+#[cfg(unix)]
+fn keep_owner(file: &File, replaced: &fs::Metadata) {
+    use std::os::unix::fs::{MetadataExt, fchown};
+    let Ok(own) = file.metadata() else { return };
+    let group = (own.gid() != replaced.gid()).then_some(replaced.gid());
+    let owner = (own.uid() != replaced.uid()).then_some(replaced.uid());
+    if group.is_some() || owner.is_some() {
+        let both = fchown(file, owner, group);
+        if both.is_err() {
+            let _ = fchown(file, None, group);
+        }
+    }
+}
+
+#[cfg(not(unix))]
+fn keep_owner(_file: &File, _replaced: &fs::Metadata) {}
+
+/// What tells a file from all others, whatever its names: device and inode. Streams have none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FileId(u64, u64);
+
+impl FileId {
+    /// `None` for what is no file with bytes of its own, and where the system tells no such numbers.
+    #[cfg(unix)]
+    pub fn of(metadata: &fs::Metadata) -> Option<Self> {
+        use std::os::unix::fs::MetadataExt;
+        metadata.is_file().then(|| Self(metadata.dev(), metadata.ino()))
+    }
+
+    /// `None` for what is no file with bytes of its own, and where the system tells no such numbers.
+    #[cfg(not(unix))]
+    pub fn of(_metadata: &fs::Metadata) -> Option<Self> {
+        None
+    }
+}
+
+/// What was at a path at some time, to notice that another program wrote there since.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FileStamp(Option<(u64, Option<SystemTime>, Option<FileId>)>);
+
+impl FileStamp {
+    /// What is there now; nothing and streams are the same.
+    pub fn of(path: &Path) -> Self {
+        let metadata = fs::metadata(path).ok().filter(fs::Metadata::is_file);
+        Self(metadata.map(|about| (about.len(), about.modified().ok(), FileId::of(&about))))
+    }
 }
 
 /// Makes the rename itself last. Not every file system can; the file is whole either way.
