@@ -19,26 +19,10 @@ pub(super) fn worst_overlap(model: &Model, state: &State, time: f64) -> f64 {
     worst
 }
 
-/// Warnings about the start: what overlaps, and what lies outside the map.
-pub(super) fn start_warnings(model: &Model, state: &State) -> Vec<Diagnostic> {
-    let mut warnings = Vec::new();
-    for_each_neighbour(model, state, |body, other| {
-        let depth = -distance(model, state, body, other, state.now);
-        if depth > model.params.contact_distance {
-            let (a, b) = (&model.movers[body as usize].identity, other.identity(model));
-            warnings.push(warning(
-                a,
-                format!("bodies {} and {} overlap by {} m at the start", a.name, b.name, meters(depth)),
-                "move them apart; the run goes on, but they can part only by moving away from each other",
-            ));
-        }
-        warnings.len() < MOST_WARNINGS
-    });
-    if warnings.len() >= MOST_WARNINGS {
-        let more = "there may be more overlaps: only the first are listed".to_owned();
-        warnings
-            .push(Diagnostic { key: None, ..warning(&model.movers[0].identity, more, "mend these first") });
-    }
+/// Warnings about the start: what overlaps, and what lies outside the map. An error if so much overlaps that
+/// no simulation could begin in a sensible time.
+pub(super) fn start_warnings(model: &Model, state: &State) -> Result<Vec<Diagnostic>, Diagnostic> {
+    let mut warnings = overlap_warnings(model, state)?;
     let size = model.grid.tile_size * DVec3::from(model.grid.counts.map(f64::from));
     for body in present(model) {
         let at = state.position(body, state.now);
@@ -52,7 +36,42 @@ pub(super) fn start_warnings(model: &Model, state: &State) -> Vec<Diagnostic> {
         }
     }
     warnings.sort_by_key(|warning| warning.key);
-    warnings
+    Ok(warnings)
+}
+
+fn overlap_warnings(model: &Model, state: &State) -> Result<Vec<Diagnostic>, Diagnostic> {
+    let mut warnings = Vec::new();
+    let most = MOST_OVERLAPS.max(MOST_OVERLAPS_PER_BODY * (model.movers.len() + model.fixtures.len()));
+    let mut count = 0;
+    for_each_neighbour(model, state, |body, other| {
+        let depth = -distance(model, state, body, other, state.now);
+        if depth > model.params.contact_distance {
+            count += 1;
+            if count <= MOST_WARNINGS {
+                let (a, b) = (&model.movers[body as usize].identity, other.identity(model));
+                warnings.push(warning(
+                    a,
+                    format!("bodies {} and {} overlap by {} m at the start", a.name, b.name, meters(depth)),
+                    "move them apart; the run goes on, but they can part only by moving away from each other",
+                ));
+            }
+        }
+        count <= most
+    });
+    if count > most {
+        return Err(Diagnostic {
+            severity: Severity::Error,
+            ..about_all(
+                format!("more than {most} pairs of bodies overlap at the start"),
+                "move them apart; are many of them at one place?",
+            )
+        });
+    }
+    if count > MOST_WARNINGS {
+        let more = count - MOST_WARNINGS;
+        warnings.push(about_all(format!("and {more} more overlaps at the start"), "fix the first ones"));
+    }
+    Ok(warnings)
 }
 
 /// Four digits, without an exponent where a person would write none.
@@ -68,6 +87,18 @@ fn warning(identity: &Identity, message: String, hint: &str) -> Diagnostic {
         message,
         hint: hint.into(),
         key: Some(identity.key),
+    }
+}
+
+/// A warning about no body in particular.
+fn about_all(message: String, hint: &str) -> Diagnostic {
+    Diagnostic {
+        severity: Severity::Warning,
+        position: None,
+        path: String::new(),
+        message,
+        hint: hint.into(),
+        key: None,
     }
 }
 
@@ -97,6 +128,14 @@ fn distance(model: &Model, state: &State, body: u32, other: Other, time: f64) ->
 
 /// Overlaps listed at most: bodies piled on one point would give as many as there are pairs.
 const MOST_WARNINGS: usize = 200;
+
+/// Overlapping pairs per body with which a simulation still begins. A ball touches at most 12 of its own size,
+/// and even a heap that overlaps badly has some dozens; n balls at one place have n/2 each, and every prediction
+/// would cost as much.
+const MOST_OVERLAPS_PER_BODY: usize = 50;
+
+/// So many pairs are looked at in a fraction of a second, however few bodies there are.
+const MOST_OVERLAPS: usize = 100_000;
 
 /// Every pair that shares a tile, once, in order, until `visit` says that it has seen enough.
 fn for_each_neighbour(model: &Model, state: &State, mut visit: impl FnMut(u32, Other) -> bool) {

@@ -74,8 +74,10 @@ impl Simulation {
         for body in 0..starts.len() as u32 {
             enter(&model, &mut state, body, 0.0);
         }
+        // Before anything is predicted: what is refused here would take minutes.
+        model.start_warnings = monitor::start_warnings(&model, &state)
+            .map_err(|problem| CompileError { problems: vec![problem] })?;
         let fault = start(&model, &mut state).err();
-        model.start_warnings = monitor::start_warnings(&model, &state);
         Ok(Self { model: Arc::new(model), state, fault })
     }
 
