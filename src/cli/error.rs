@@ -2,7 +2,10 @@
 
 use std::fmt::Display;
 use std::io::Write as _;
+use std::path::Path;
 
+use crate::record::Exceeded;
+use crate::scene::{escaped, shown_path};
 use crate::sim::{Fault, Simulation};
 
 /// Why a verb did not end well.
@@ -17,6 +20,12 @@ pub enum CliError {
     /// The run stopped where a number went wrong.
     #[error("the run stopped {0}")]
     Fault(Fault),
+    /// `--max-events` or `--max-wall`.
+    #[error("stopped early at t = {time} s: {why}; what was written is complete up to there")]
+    Stopped { time: f64, why: Exceeded },
+    /// The same, of a study.
+    #[error("stopped early: {0}; the report holds what was done so far")]
+    StudyStopped(String),
     /// Ctrl-C or a request to terminate.
     #[error("interrupted at t = {time} s; what was written so far is complete")]
     Interrupted { time: f64 },
@@ -26,12 +35,13 @@ pub enum CliError {
 }
 
 impl CliError {
-    /// 1 the scene has errors, 2 bad usage, 3 a numerical fault, 130 interrupted.
+    /// 1 the scene has errors, 2 bad usage, 3 a numerical fault, 4 stopped early, 130 interrupted.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Scene(_) => 1,
             Self::Usage(_) => 2,
             Self::Fault(_) => 3,
+            Self::Stopped { .. } | Self::StudyStopped(_) => 4,
             Self::Interrupted { .. } | Self::Cancelled => 130,
         }
     }
@@ -45,7 +55,13 @@ impl CliError {
         ))
     }
 
-    pub(super) fn unwritable(name: impl Display, error: &std::io::Error) -> Self {
+    /// An output file that can't be written.
+    pub(super) fn unwritable(path: &Path, error: &std::io::Error) -> Self {
+        Self::Usage(format!("can't write {}: {error}", shown_path(path)))
+    }
+
+    /// The same, of standard output or what an option prints there.
+    pub(super) fn unprintable(name: &str, error: &std::io::Error) -> Self {
         Self::Usage(format!("can't write {name}: {error}"))
     }
 
@@ -56,5 +72,7 @@ impl CliError {
 
 /// Tells the person at the terminal. Nothing sensible is left to do when standard error is closed.
 pub fn say(message: impl Display) {
-    let _ = writeln!(std::io::stderr(), "polyscene: {message}");
+    // Every line as text, whatever names it holds.
+    let lines = message.to_string().split('\n').map(escaped).collect::<Vec<_>>().join("\n");
+    let _ = writeln!(std::io::stderr(), "polyscene: {lines}");
 }

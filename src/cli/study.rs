@@ -2,15 +2,17 @@
 
 use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 
+use super::limits::LimitArgs;
 use super::output::{self, is_stdout};
 use super::{CliError, input, interrupt, method, number};
-use crate::scene::check_writable;
+use crate::scene::{check_writable, escaped, shown_path, write_atomically};
 use crate::sim::Method;
-use crate::study::{self, AXES, Control, KNOBS, Report, Settings, StudyError};
+use crate::study::{self, AXES, Control, KNOBS, Report, Settings, Stop, StudyError};
 
 /// Compare the speed and the errors of every method on a scene
 ///
@@ -85,6 +87,10 @@ pub struct StudyArgs {
     /// Print the whole report as one JSON object to standard output
     #[arg(long)]
     json: bool,
+
+    /// `--max-events` bounds each run, `--max-wall` the whole study
+    #[command(flatten)]
+    limits: LimitArgs,
 }
 
 pub(super) fn study(args: &StudyArgs) -> Result<(), CliError> {
@@ -101,7 +107,7 @@ pub(super) fn study(args: &StudyArgs) -> Result<(), CliError> {
         return Err(CliError::Scene(format!("{name} can't be studied: {errors} error(s)")));
     };
     for (_, path) in args.outputs().filter(|(_, path)| !is_stdout(path)) {
-        check_writable(path).map_err(|error| CliError::unwritable(path.display(), &error))?;
+        check_writable(path).map_err(|error| CliError::unwritable(path, &error))?;
     }
 
     let bar = bar();
@@ -109,7 +115,8 @@ pub(super) fn study(args: &StudyArgs) -> Result<(), CliError> {
         bar.set_position((progress.part * PARTS) as u64);
         bar.set_message(progress.what.clone());
     };
-    let mut control = Control::new(interrupt::on_interrupt(), &mut show);
+    let interrupt = interrupt::on_interrupt();
+    let mut control = Control::new(interrupt, &mut show).until(args.limits.wall());
     let outcome = study::run(scene, &title_of(&args.scene), &settings, &mut control);
     bar.finish_and_clear();
     let report = outcome.map_err(|error| match error {
@@ -117,7 +124,27 @@ pub(super) fn study(args: &StudyArgs) -> Result<(), CliError> {
         StudyError::Scene(error) => CliError::Scene(error.to_string()),
     })?;
     write(args, &report)?;
-    if report.cancelled { Err(CliError::Cancelled) } else { Ok(()) }
+    early_end(args, &report, interrupt)
+}
+
+/// How a study that was not carried out in full ends.
+fn early_end(args: &StudyArgs, report: &Report, interrupt: &AtomicBool) -> Result<(), CliError> {
+    if report.cancelled && interrupt.load(Ordering::Relaxed) {
+        return Err(CliError::Cancelled);
+    }
+    if let (true, Some(wall)) = (report.cancelled, args.limits.max_wall) {
+        return Err(CliError::StudyStopped(format!(
+            "it has taken {wall} s of wall time, the longest allowed"
+        )));
+    }
+    let stopped = report.points.iter().filter(|point| point.stopped == Some(Stop::EventLimit)).count();
+    match (stopped, args.limits.max_events) {
+        (1.., Some(most)) => {
+            let runs = if stopped == 1 { "1 run has".into() } else { format!("{stopped} runs have") };
+            Err(CliError::StudyStopped(format!("{runs} had {most} events, the most allowed")))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// What to call the scene in the report: the file's name without its folder.
@@ -125,7 +152,7 @@ fn title_of(path: &Path) -> String {
     if is_stdout(path) {
         return "Standard input".into();
     }
-    path.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned())
+    path.file_name().map_or(String::new(), |name| escaped(&name.to_string_lossy()))
 }
 
 /// The bar counts thousandths of the study.
@@ -149,7 +176,7 @@ fn write(args: &StudyArgs, report: &Report) -> Result<(), CliError> {
     }
     if args.json {
         let text = serde_json::to_string(report);
-        let text = text.map_err(|error| CliError::unwritable("--json", &error.into()))?;
+        let text = text.map_err(|error| CliError::unprintable("--json", &error.into()))?;
         output::print(format!("{text}\n").as_bytes())
     } else if args.outputs().any(|(_, path)| is_stdout(path)) {
         Ok(())
@@ -162,7 +189,7 @@ fn write_text(path: &Path, text: &str) -> Result<(), CliError> {
     if is_stdout(path) {
         return output::print(text.as_bytes());
     }
-    std::fs::write(path, text).map_err(|error| CliError::unwritable(path.display(), &error))
+    write_atomically(path, text.as_bytes()).map_err(|error| CliError::unwritable(path, &error))
 }
 
 impl StudyArgs {
@@ -179,6 +206,7 @@ impl StudyArgs {
             event_window: self.event_window,
             reference_limit: self.reference_limit,
             run_limit: self.run_limit,
+            max_events: self.limits.max_events,
         }
     }
 
@@ -194,17 +222,13 @@ impl StudyArgs {
 fn refuse_clashing_outputs(args: &StudyArgs) -> Result<(), CliError> {
     let json = args.json.then_some(("--json", Path::new("-")));
     let all: Vec<_> = json.into_iter().chain(args.outputs()).collect();
-    for (nth, (option, path)) in all.iter().enumerate() {
-        let place = output::place(path);
-        if let Some((other, _)) = all[..nth].iter().find(|(_, path)| output::place(path) == place) {
-            let place = if is_stdout(path) { "standard output".into() } else { path.display().to_string() };
-            return Err(CliError::Usage(format!("{other} and {option} can't both write to {place}")));
+    output::refuse_shared(&all)?;
+    match args.outputs().find(|(_, path)| output::overwrites(path, &args.scene)) {
+        Some((option, path)) => {
+            Err(CliError::Usage(format!("{option} would overwrite the scene {}", shown_path(path))))
         }
-        if output::overwrites(path, &args.scene) {
-            return Err(CliError::Usage(format!("{option} would overwrite the scene {}", path.display())));
-        }
+        None => Ok(()),
     }
-    Ok(())
 }
 
 const EXAMPLES: &str = "Examples:\n  \

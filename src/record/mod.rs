@@ -5,6 +5,7 @@ mod drift;
 mod frame;
 mod history;
 mod inline;
+mod limits;
 mod publish;
 mod recorder;
 mod thread;
@@ -15,6 +16,7 @@ pub use command::RunCommand;
 pub use drift::Jump;
 pub use frame::{BodyFrame, EventRow, Frame, RunState};
 pub use inline::InlineRunner;
+pub use limits::{Exceeded, Limits, Watch, advance};
 pub use thread::ThreadRunner;
 
 /// Something that runs a simulation on command. The application uses a thread, so that no scene can
