@@ -7,7 +7,7 @@ use super::disk::{DiskStamp, has_changed};
 use super::history::History;
 use super::session::OpenFile;
 use super::{Notice, Outcome, Recovered, SAMPLES, Session};
-use crate::scene::Document;
+use crate::scene::{Document, shown_path};
 
 impl Session {
     /// Does `intent`, after asking when it would lose unsaved changes.
@@ -71,7 +71,7 @@ impl Session {
         let stamp = match readable(&path) {
             Ok(stamp) => stamp,
             Err(reason) => {
-                let text = format!("{} can't be opened: {reason}", path.display());
+                let text = format!("{} can't be opened: {reason}", shown_path(&path));
                 return self.notices.push(Notice::error(text));
             }
         };
@@ -79,7 +79,7 @@ impl Session {
         let unread =
             document.diagnostics().iter().find(|problem| problem.is_error() && problem.position.is_none());
         if let (None, Some(problem)) = (document.scene(), unread) {
-            let text = format!("{} can't be opened: {}", path.display(), problem.message);
+            let text = format!("{} can't be opened: {}", shown_path(&path), problem.message);
             return self.notices.push(Notice::error(text));
         }
         let errors = document.diagnostics().iter().filter(|problem| problem.is_error()).count();
@@ -163,7 +163,7 @@ impl Session {
 
     fn write(&mut self, path: &Path, then: Option<Intent>) {
         if let Err(err) = self.document().save(path) {
-            let text = format!("{} can't be saved: {err}", path.display());
+            let text = format!("{} can't be saved: {err}", shown_path(path));
             return self.notices.push(Notice::error(text));
         }
         self.history.mark_saved();

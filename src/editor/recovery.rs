@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 
 use super::dialogue::Question;
 use super::disk::DiskStamp;
-use super::settings::write_atomically;
-use super::{Notice, Session, Storage};
+use super::{Notice, Session, Storage, path_text};
+use crate::scene::write_private;
 
 /// Least time between two copies: what a crash may cost.
 const INTERVAL: Duration = Duration::from_secs(10);
@@ -22,6 +22,7 @@ pub struct Recovered {
     #[serde(skip)]
     base: PathBuf,
     /// The user's file; `None` for work that never had one.
+    #[serde(with = "path_text::optional", default)]
     pub(super) path: Option<PathBuf>,
     title: String,
     pub(super) stamp: Option<DiskStamp>,
@@ -99,11 +100,11 @@ impl Recovery {
     fn own_base(&mut self) -> std::io::Result<Option<PathBuf>> {
         let Some(folder) = &self.folder else { return Ok(None) };
         if self.own.is_none() {
-            std::fs::create_dir_all(folder)?;
+            create_private_folder(folder)?;
             let nanos =
                 SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default().as_nanos();
             let base = folder.join(format!("{}-{nanos}", std::process::id()));
-            let lock = File::create(base.with_extension("lock"))?;
+            let lock = create_private(&base.with_extension("lock"))?;
             // where locks are not supported the worst is that two runs offer the same work
             let _ = lock.try_lock();
             self.own = Some(OwnFiles { base, _lock: lock });
@@ -159,8 +160,8 @@ impl Session {
             saved_at_s: now_s(),
         };
         // the description last: without it the copy is not offered
-        write_atomically(&base.with_extension("xml"), &self.document().to_bytes())?;
-        write_atomically(&base.with_extension("json"), &serde_json::to_vec(&about)?)
+        write_private(&base.with_extension("xml"), &self.document().to_bytes())?;
+        write_private(&base.with_extension("json"), &serde_json::to_vec(&about)?)
     }
 
     /// Drops the copy of a document that was saved, discarded or replaced.
@@ -172,6 +173,25 @@ impl Session {
     pub(super) fn offer_recovery(&mut self) {
         self.question = self.recovery.find().into_iter().next().map(Question::Recover);
     }
+}
+
+/// Unsaved work may be secret where the user's own file is: nobody else reads it.
+fn create_private_folder(folder: &Path) -> std::io::Result<()> {
+    std::fs::create_dir_all(folder)?;
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt as _;
+        std::fs::set_permissions(folder, std::fs::Permissions::from_mode(0o700))?;
+    }
+    Ok(())
+}
+
+fn create_private(path: &Path) -> std::io::Result<File> {
+    let mut options = File::options();
+    options.write(true).create(true).truncate(true);
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+    options.open(path)
 }
 
 fn is_alive(lock: &Path) -> bool {

@@ -185,3 +185,68 @@ fn without_a_display_the_editor_says_what_to_do() {
     let text = String::from_utf8(output.stderr).unwrap();
     assert!(text.contains("polyscene run") && text.contains("polyscene render"), "{text}");
 }
+
+/// The program with a script, in a window on a display: how it ended, what it said, and how long it took.
+fn scripted(arguments: &[&str]) -> (Option<i32>, String, Duration) {
+    let folder = tempfile::tempdir().unwrap();
+    let (display, _server) = display();
+    let since = Instant::now();
+    let program = Command::new(env!("CARGO_BIN_EXE_polyscene"))
+        .args(arguments)
+        .env("DISPLAY", display)
+        .env_remove("WAYLAND_DISPLAY")
+        .env("HOME", folder.path())
+        .env("XDG_CONFIG_HOME", folder.path().join("config"))
+        .env("XDG_DATA_HOME", folder.path().join("data"))
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut program = Killed(program);
+    let status = loop {
+        if let Some(status) = program.0.try_wait().unwrap() {
+            break status;
+        }
+        assert!(since.elapsed() < Duration::from_secs(60), "{arguments:?} does not end");
+        std::thread::sleep(Duration::from_millis(50));
+    };
+    let mut said = String::new();
+    std::io::Read::read_to_string(&mut program.0.stderr.take().unwrap(), &mut said).unwrap();
+    (status.code(), said, since.elapsed())
+}
+
+/// Symptom: `--do add_plane --screenshot` wrote the picture and never ended. Cause: closing asked about the
+/// unsaved edit, and a script answers nothing.
+#[test]
+fn a_script_that_edits_ends_with_its_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    let picture = folder.path().join("window.png");
+    let (scene, picture_name) = (sample_path("orbit"), picture.to_str().unwrap());
+    let (code, said, _) =
+        scripted(&[scene.to_str().unwrap(), "--do", "add_plane", "--screenshot", picture_name]);
+    assert_eq!(code, Some(0), "{said}");
+    assert!(image::open(&picture).is_ok());
+}
+
+/// Symptom: `--do dt:0` and `--do select:nosuch` did nothing and ended with 0; `step_forward*-1` was called an
+/// unknown step.
+#[test]
+fn a_step_that_cannot_be_taken_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let picture = folder.path().join("window.png");
+    let scene = sample_path("orbit");
+    let cases = [
+        ("dt:0", "Δt must lie between"),
+        ("dt:fast", "is no number"),
+        ("select:nosuch", "no body or force has this name"),
+        ("event:99", "events in this Δt"),
+        ("step_forward*-1", "the count after * must be a whole number from 1"),
+        ("fly", "there is no step `fly`"),
+    ];
+    for (step, reason) in cases {
+        let (code, said, _) =
+            scripted(&[scene.to_str().unwrap(), "--do", step, "--screenshot", picture.to_str().unwrap()]);
+        assert_eq!(code, Some(2), "{step}: {said}");
+        assert!(said.contains(reason), "{step}: {said}");
+        assert!(!picture.exists(), "{step}");
+    }
+}

@@ -215,3 +215,35 @@ fn a_thread_reaches_the_same_state() {
     }
     assert_eq!(bits(&runner.frame()), expected);
 }
+
+/// Symptom: closing the window waited for ever when the simulation's thread was inside one long call.
+/// Cause: the thread was joined. Expected: it is left alone after a moment.
+#[test]
+fn a_thread_inside_a_long_call_does_not_hold_up_whoever_drops_it() {
+    const LONG: Duration = Duration::from_secs(5);
+    let mut runner = ThreadRunner::new(|| std::thread::sleep(LONG)).expect("a thread");
+    runner.send(RunCommand::Load(Box::new(scene("bounce.xml"))));
+    while runner.frame().state == RunState::Empty {
+        std::thread::yield_now();
+    }
+    let since = Instant::now();
+    drop(runner);
+    assert!(since.elapsed() < Duration::from_secs(1), "it took {:?}", since.elapsed());
+}
+
+/// Commands that wait when a runner is dropped are not carried out any more.
+#[test]
+fn a_dropped_thread_forgets_what_waits() {
+    let (told, frames) = std::sync::mpsc::channel();
+    let mut runner = ThreadRunner::new(move || drop(told.send(()))).expect("a thread");
+    let scene = scene("gas.xml");
+    for _ in 0..10_000 {
+        runner.send(RunCommand::Load(Box::new(scene.clone())));
+    }
+    drop(runner);
+    // The channel closes when the thread has ended.
+    let since = Instant::now();
+    while frames.recv_timeout(Duration::from_secs(1)).is_ok() {}
+    assert_eq!(frames.recv_timeout(Duration::ZERO), Err(std::sync::mpsc::RecvTimeoutError::Disconnected));
+    assert!(since.elapsed() < Duration::from_secs(5), "it took {:?}", since.elapsed());
+}
