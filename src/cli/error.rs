@@ -72,7 +72,10 @@ impl CliError {
 
 /// Tells the person at the terminal. Nothing sensible is left to do when standard error is closed.
 pub fn say(message: impl Display) {
-    // Every line as text, whatever names it holds.
-    let lines = message.to_string().split('\n').map(escaped).collect::<Vec<_>>().join("\n");
-    let _ = writeln!(std::io::stderr(), "polyscene: {lines}");
+    let _ = writeln!(std::io::stderr(), "polyscene: {}", escaped_lines(&message.to_string()));
+}
+
+/// Every line as text, whatever names it holds.
+pub(super) fn escaped_lines(text: &str) -> String {
+    text.split('\n').map(escaped).collect::<Vec<_>>().join("\n")
 }

@@ -1,5 +1,7 @@
 //! `--max-events` and `--max-wall`: how much a verb may cost.
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use clap::Args;
@@ -19,7 +21,47 @@ pub struct LimitArgs {
     pub max_wall: Option<f64>,
 }
 
+/// Ends the program when it is stuck inside one call long after its wall time, where no look at the clock comes
+/// any more. Dropped, it lets the program be.
+pub struct Watchdog(Arc<AtomicBool>);
+
+/// Added to the wall time: a look at all overlaps of a large scene, or the writing of its last state, is no
+/// reason to end the program.
+const PATIENCE: Duration = Duration::from_secs(5);
+
+impl Watchdog {
+    fn after(wall: Duration) -> Self {
+        let done = Arc::new(AtomicBool::new(false));
+        let seen = done.clone();
+        std::thread::spawn(move || {
+            std::thread::sleep(wall + PATIENCE.max(wall));
+            if !seen.load(Ordering::Relaxed) {
+                give_up(wall);
+            }
+        });
+        Self(done)
+    }
+}
+
+impl Drop for Watchdog {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+}
+
+#[allow(clippy::exit, reason = "the run has not looked at the clock in time")]
+fn give_up(wall: Duration) -> ! {
+    let wall = wall.as_secs_f64();
+    super::say(format!("stopped early: its {wall} s of wall time are long over and one step does not end"));
+    std::process::exit(4)
+}
+
 impl LimitArgs {
+    /// To be held until the work is done.
+    pub fn watchdog(&self) -> Option<Watchdog> {
+        self.wall().map(Watchdog::after)
+    }
+
     pub fn limits(&self) -> Limits {
         Limits { events: self.max_events, wall: self.wall() }
     }

@@ -22,6 +22,9 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+use self::error::escaped_lines;
+use crate::scene::escaped;
+
 pub use check::CheckArgs;
 pub use edit::EditArgs;
 pub use error::{CliError, say};
@@ -99,6 +102,12 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Request {
 
 /// Prints help or a complaint where it belongs: exit code 0 for help, 2 for bad usage.
 pub fn print_help(error: &clap::Error) -> ExitCode {
+    let complaint = error.render().to_string();
+    if error.use_stderr() && complaint.lines().any(|line| escaped(line) != line) {
+        // Names from the command line, which may come from files, as text.
+        let _ = std::io::stderr().write_all(escaped_lines(&complaint).as_bytes());
+        return ExitCode::from(2);
+    }
     let printed = error.print().and_then(|()| std::io::stdout().flush());
     match printed {
         _ if error.use_stderr() => ExitCode::from(2),

@@ -93,6 +93,7 @@ pub(super) fn render(args: &RenderArgs) -> Result<(), CliError> {
         return Err(CliError::Usage(format!("--out would overwrite the scene {}", shown_path(&args.out))));
     }
     let steps = steps(args)?;
+    let watchdog = args.limits.watchdog();
     let name = input::display_name(&args.scene);
     let examined = input::open(&args.scene, args.method)?;
     for line in examined.lines(&name) {
@@ -103,6 +104,7 @@ pub(super) fn render(args: &RenderArgs) -> Result<(), CliError> {
     };
     check_writable(&args.out).map_err(unwritable)?;
     let (frame, exceeded) = frame_after(&steps, scene, args).map_err(CliError::Fault)?;
+    drop(watchdog);
 
     let mut offscreen = Offscreen::new().map_err(|error| unusable(&error))?;
     let tiles = tiles(args, scene, &frame);

@@ -97,6 +97,7 @@ pub(super) fn study(args: &StudyArgs) -> Result<(), CliError> {
     let settings = args.settings();
     settings.check().map_err(|error| CliError::Usage(format!("--{error}")))?;
     refuse_clashing_outputs(args)?;
+    let watchdog = args.limits.watchdog();
     let name = input::display_name(&args.scene);
     let examined = input::open(&args.scene, Method::Exact)?;
     for line in examined.lines(&name) {
@@ -118,6 +119,7 @@ pub(super) fn study(args: &StudyArgs) -> Result<(), CliError> {
     let interrupt = interrupt::on_interrupt();
     let mut control = Control::new(interrupt, &mut show).until(args.limits.wall());
     let outcome = study::run(scene, &title_of(&args.scene), &settings, &mut control);
+    drop(watchdog);
     bar.finish_and_clear();
     let report = outcome.map_err(|error| match error {
         StudyError::Settings(error) => CliError::Usage(format!("--{error}")),

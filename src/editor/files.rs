@@ -7,7 +7,7 @@ use super::disk::{DiskStamp, has_changed};
 use super::history::History;
 use super::session::OpenFile;
 use super::{Notice, Outcome, Recovered, SAMPLES, Session};
-use crate::scene::{Document, shown_path};
+use crate::scene::{Document, escaped, shown_path};
 
 impl Session {
     /// Does `intent`, after asking when it would lose unsaved changes.
@@ -146,8 +146,9 @@ impl Session {
     pub(super) fn save_as(&mut self, then: Option<Intent>) {
         self.after_save = then;
         let directory = self.file.path.as_deref().and_then(Path::parent).map(Path::to_owned);
-        let title = &self.file.title;
-        let file_name = if title.contains('.') { title.clone() } else { format!("{title}.xml") };
+        let name = self.file.path.as_deref().and_then(Path::file_name);
+        let title = name.map_or(self.file.title.clone(), |name| name.to_string_lossy().into_owned());
+        let file_name = if title.contains('.') { title } else { format!("{title}.xml") };
         self.requests.push(Request::ChooseSavePath { directory, file_name });
     }
 
@@ -217,7 +218,7 @@ impl OpenFile {
     }
 
     fn at(path: &Path, stamp: Option<DiskStamp>) -> Self {
-        let title = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+        let title = escaped(&path.file_name().unwrap_or(path.as_os_str()).to_string_lossy());
         Self { path: Some(path.to_owned()), title, stamp, told_changed: false }
     }
 }

@@ -8,7 +8,9 @@ use quick_xml::errors::IllFormedError;
 use quick_xml::events::Event;
 
 use super::declaration;
-use super::rules::{MAX_DEPTH, MAX_NODES, is_name, is_xml_char};
+use super::rules::{
+    FREE_PIECES, LEAST_BYTES_PER_ELEMENT, LEAST_BYTES_PER_PIECE, MAX_DEPTH, MAX_NODES, is_name, is_xml_char,
+};
 use super::shown;
 use super::tree::{Child, Children, Element, Keys, NO_PLACE, Text, tag};
 
@@ -63,14 +65,15 @@ struct Parser<'a> {
     open: Vec<Open<'a>>,
     top: Vec<Child>,
     nodes: usize,
+    elements: usize,
     /// Of the attributes of one tag.
     names: Vec<&'a str>,
 }
 
 impl<'a> Parser<'a> {
     fn new(source: &'a str, keys: &'a Keys, whole: bool) -> Self {
-        let (open, top, nodes, names) = Default::default();
-        Self { source, keys, whole, has_root: false, open, top, nodes, names }
+        let (open, top, names) = Default::default();
+        Self { source, keys, whole, has_root: false, open, top, nodes: 0, elements: 0, names }
     }
 
     fn run(&mut self) -> Result<(), ParseFault> {
@@ -94,10 +97,8 @@ impl<'a> Parser<'a> {
     fn event(&mut self, event: &Event<'_>, start: usize, end: usize) -> Result<(), ParseFault> {
         let piece = self.source.get(start..end).unwrap_or("");
         self.nodes += 1;
-        if self.nodes > MAX_NODES {
-            let message = format!("there are more than {MAX_NODES} pieces of XML");
-            return Err(self.fault(start, &message, "divide the scene"));
-        }
+        self.elements += usize::from(matches!(event, Event::Start(_) | Event::Empty(_)));
+        self.check_amount(start)?;
         match event {
             Event::Start(_) => self.start(start, piece)?,
             Event::Empty(_) => {
@@ -146,6 +147,20 @@ impl<'a> Parser<'a> {
                 return Err(self.fault(start, "a DOCTYPE is not allowed", hint));
             }
             Event::Eof => {}
+        }
+        Ok(())
+    }
+
+    /// Refuses what would take too much memory, also in proportion to the file.
+    fn check_amount(&self, at: usize) -> Result<(), ParseFault> {
+        if self.nodes > MAX_NODES {
+            let message = format!("there are more than {MAX_NODES} pieces of XML");
+            return Err(self.fault(at, &message, "divide the scene"));
+        }
+        let most = |least_bytes| FREE_PIECES + at / least_bytes;
+        if self.nodes > most(LEAST_BYTES_PER_PIECE) || self.elements > most(LEAST_BYTES_PER_ELEMENT) {
+            let message = "the elements up to here are shorter than those of any scene";
+            return Err(self.fault(at, message, "remove the elements that are no part of the scene"));
         }
         Ok(())
     }

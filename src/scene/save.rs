@@ -3,7 +3,6 @@
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::time::{Duration, SystemTime};
 
 /// Writes a file: a temporary one beside it, synced, then renamed over it. A link is followed, the
 /// permissions and, as far as the system lets us, the owner of an existing file are kept, and a write-protected
@@ -22,8 +21,8 @@ fn write(path: &Path, bytes: &[u8], private: bool) -> io::Result<()> {
     if target.is_stream() {
         return File::options().write(true).open(&target.path)?.write_all(bytes);
     }
-    remove_stale(target.folder());
     let mut temporary = target.temporary(private)?;
+    remove_stale(target.folder(), temporary.as_file());
     // Not through the temporary file itself, whose errors tell its name.
     temporary.as_file_mut().write_all(bytes)?;
     if let Some(metadata) = &target.existing {
@@ -156,35 +155,37 @@ fn temporary_in(folder: &Path, private: bool) -> io::Result<tempfile::NamedTempF
     Ok(file)
 }
 
-/// A save takes less, however slow the disk.
-const LONGEST_SAVE: Duration = Duration::from_secs(60);
-/// Where the lock can't be asked.
-const SURELY_STALE: Duration = Duration::from_secs(24 * 3600);
+/// Seconds: a save takes less, however slow the disk.
+const LONGEST_SAVE_S: u64 = 60;
+/// Seconds, where the lock can't be asked.
+const SURELY_STALE_S: u64 = 24 * 3600;
 
 /// Removes temporary files of runs that were killed while they saved here: old ones that nobody holds locked.
-fn remove_stale(folder: &Path) {
-    let Ok(entries) = fs::read_dir(folder) else { return };
+/// `new` was made just now: it has the time of the file system that dates the others.
+fn remove_stale(folder: &Path, new: &File) {
+    let (Ok(entries), Ok(new)) = (fs::read_dir(folder), new.metadata()) else { return };
     for entry in entries.flatten() {
         let is_ours =
             entry.file_name().to_str().is_some_and(|name| name.starts_with(PREFIX) && name.ends_with(SUFFIX));
-        if is_ours && is_stale(&entry) {
+        if is_ours && is_stale(&entry, &new) {
             // One that can't be removed stays; that is no reason not to save.
             let _ = fs::remove_file(entry.path());
         }
     }
 }
 
-fn is_stale(entry: &fs::DirEntry) -> bool {
+fn is_stale(entry: &fs::DirEntry, new: &fs::Metadata) -> bool {
     // Of the entry itself: a link is none of ours.
     let Ok(metadata) = entry.metadata() else { return false };
-    let age = metadata.modified().ok().and_then(|time| time.elapsed().ok()).unwrap_or_default();
-    if !metadata.is_file() || age < LONGEST_SAVE {
+    let dates = new.modified().ok().zip(metadata.modified().ok());
+    let age = dates.and_then(|(now, then)| now.duration_since(then).ok()).map_or(0, |age| age.as_secs());
+    if !metadata.is_file() || age < LONGEST_SAVE_S {
         return false;
     }
     match File::open(entry.path()).map(|file| file.try_lock()) {
         Ok(Ok(())) => true,
         Ok(Err(fs::TryLockError::WouldBlock)) => false,
-        Ok(Err(fs::TryLockError::Error(_))) | Err(_) => age >= SURELY_STALE,
+        Ok(Err(fs::TryLockError::Error(_))) | Err(_) => age >= SURELY_STALE_S,
     }
 }
 
@@ -227,14 +228,27 @@ impl FileId {
 }
 
 /// What was at a path at some time, to notice that another program wrote there since.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct FileStamp(Option<(u64, Option<SystemTime>, Option<FileId>)>);
+#[derive(Clone, Debug)]
+pub struct FileStamp(Option<fs::Metadata>);
 
 impl FileStamp {
     /// What is there now; nothing and streams are the same.
     pub fn of(path: &Path) -> Self {
-        let metadata = fs::metadata(path).ok().filter(fs::Metadata::is_file);
-        Self(metadata.map(|about| (about.len(), about.modified().ok(), FileId::of(&about))))
+        Self(fs::metadata(path).ok().filter(fs::Metadata::is_file))
+    }
+}
+
+impl PartialEq for FileStamp {
+    fn eq(&self, other: &Self) -> bool {
+        match (&self.0, &other.0) {
+            (None, None) => true,
+            (Some(one), Some(other)) => {
+                one.len() == other.len()
+                    && one.modified().ok() == other.modified().ok()
+                    && FileId::of(one) == FileId::of(other)
+            }
+            _ => false,
+        }
     }
 }
 

@@ -176,7 +176,7 @@ fn a_name_that_is_no_utf8_is_kept_and_offered() {
     let Bench { session, folder, .. } = bench;
     drop(session);
     let mut bench = Bench::with_storage(folder);
-    assert_eq!(bench.session.settings().recent, [path.clone()]);
+    assert_eq!(bench.session.settings().recent, std::slice::from_ref(&path));
     bench.act(Action::Answer(Answer::Restore));
     assert_eq!(bench.session.path(), Some(path.as_path()));
     bench.run(Command::Save);

@@ -81,6 +81,7 @@ pub(super) fn run(args: &RunArgs) -> Result<(), CliError> {
     refuse_clashing_outputs(args)?;
     let final_scene = args.final_scene.as_deref().map(FinalScene::new);
 
+    let watchdog = args.limits.watchdog();
     let name = input::display_name(&args.scene);
     let examined = input::open(&args.scene, args.method)?;
     let mut warnings = examined.lines(&name);
@@ -99,6 +100,7 @@ pub(super) fn run(args: &RunArgs) -> Result<(), CliError> {
     let stops = Stops { interrupt, watch: Watch::start(args.limits.limits()) };
     let ending = drive::drive(&mut sim, &grid, &mut recorder, &stops)?;
     let wall_s = started.elapsed().as_secs_f64();
+    drop(watchdog);
     recorder.close()?;
 
     if let Some(warning) = summary::overflow_warning(&sim) {

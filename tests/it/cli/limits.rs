@@ -147,3 +147,17 @@ fn thousands_of_bodies_at_one_place_are_refused_at_once() {
     }
     assert!(!bench.path("e.jsonl").exists());
 }
+
+/// Symptom: a program stuck inside one call, where no look at the clock comes, could only be killed. Here it
+/// waits for a scene that never comes.
+#[cfg(unix)]
+#[test]
+fn the_wall_clock_ends_a_program_that_is_stuck() {
+    let bench = Bench::new();
+    let made = std::process::Command::new("mkfifo").arg(bench.path("scene.fifo")).status();
+    assert!(made.is_ok_and(|status| status.success()));
+    let since = Instant::now();
+    let outcome = bench.polyscene(&["run", "scene.fifo", "--until", "1", "--max-wall", "0.1"]);
+    assert_eq!(outcome.code, 4, "{}", outcome.stderr);
+    assert!(since.elapsed() < Duration::from_secs(15), "it took {:?}", since.elapsed());
+}

@@ -19,7 +19,9 @@ fn a_hostile_file_name_is_escaped_in_every_message() {
     let bench = Bench::new();
     bench.write(HOSTILE, BOUNCE);
     let missing = format!("{HOSTILE}/x");
-    let cases: [&[&str]; 8] = [
+    let cases: [&[&str]; 10] = [
+        &["check", "--method\u{1b}[31m", HOSTILE],
+        &["run", HOSTILE, "--until", "\u{1b}[31m\u{202e}"],
         &["run", HOSTILE, "--until", "1"],
         &["run", HOSTILE, "--until", "1", "--states", HOSTILE],
         &["run", HOSTILE, "--until", "1", "--states", &missing],
