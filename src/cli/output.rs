@@ -17,7 +17,7 @@ pub fn is_stdout(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
 
-/// What an output or the scene is: a name, and where the system has one, the file behind it.
+/// What an output or the scene is: a name and, where the system has one, the file behind it.
 struct Place {
     name: PathBuf,
     file: Option<FileId>,

@@ -21,7 +21,8 @@ use crate::view::{
 ///
 /// Needs neither a display nor a GPU: OpenGL runs in software through EGL. Shows the start, or the state
 /// at `--at` with the contacts of the last Δt. A simulation that stops before `--at` on a numerical fault
-/// gives no picture, tells why, and ends with exit code 3.
+/// gives no picture, tells why, and ends with exit code 3; one that --max-events or --max-wall stops gives that
+/// of the time reached.
 #[derive(Debug, Args)]
 #[command(after_help = after_help())]
 pub struct RenderArgs {
@@ -64,7 +65,6 @@ pub struct RenderArgs {
     #[arg(long, value_name = "FACTOR", value_parser = zoom, default_value = "1")]
     zoom: f64,
 
-    /// A run that they end gives the picture of the time reached
     #[command(flatten)]
     limits: LimitArgs,
 }

@@ -19,7 +19,8 @@ use crate::study::{self, AXES, Control, KNOBS, Report, Settings, Stop, StudyErro
 /// Every method runs over every Δt (`exact` has no such axis: it runs over field tolerances where the scene
 /// has fields) and is compared with an independent reference: another integrator, another root finder, all
 /// pairs. Chaotic scenes are compared up to the horizon where the reference's own error estimate reaches
-/// --trusted-error, and by invariants beyond. Ctrl-C ends a study and reports what is done so far.
+/// --trusted-error, and by invariants beyond. Ctrl-C ends a study and reports what is done so far; so does
+/// --max-wall, while --max-events ends each run.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = long_help())]
 pub struct StudyArgs {
@@ -88,7 +89,6 @@ pub struct StudyArgs {
     #[arg(long)]
     json: bool,
 
-    /// `--max-events` bounds each run, `--max-wall` the whole study
     #[command(flatten)]
     limits: LimitArgs,
 }

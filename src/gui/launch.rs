@@ -14,7 +14,7 @@ use super::error::GuiError;
 use crate::editor::{Action, COMMANDS, Command, Outcome, Storage};
 use crate::record::ThreadRunner;
 use crate::render::write_png;
-use crate::scene::shown_path;
+use crate::scene::{check_writable, same_file, shown_path};
 use crate::sim::Method;
 use crate::view::OVERLAYS;
 
@@ -68,6 +68,7 @@ pub fn run(options: Options) -> Result<Report, GuiError> {
     let called = Instant::now();
     let report = Arc::new(Mutex::new(Report::default()));
     let script = Script::new(&options, called, report.clone())?;
+    check_screenshot(&options)?;
     let scripted = options.screenshot.is_some() || options.bench_orbit.is_some();
     let size = options.window_size.unwrap_or([1360, 860]).map(|side| side as f32);
     let viewport = egui::ViewportBuilder::default()
@@ -107,6 +108,17 @@ pub fn run(options: Options) -> Result<Report, GuiError> {
         Some(reason) => Err(GuiError::Script(reason)),
         None => Ok(report),
     }
+}
+
+/// Refuses a picture that can't be written or would replace the scene, before the window opens.
+fn check_screenshot(options: &Options) -> Result<(), GuiError> {
+    let Some(path) = &options.screenshot else { return Ok(()) };
+    if options.scene.as_ref().is_some_and(|scene| same_file(path, scene)) {
+        let text = format!("--screenshot would overwrite the scene {}", shown_path(path));
+        return Err(GuiError::Script(text));
+    }
+    check_writable(path)
+        .map_err(|error| GuiError::Script(format!("can't write {}: {error}", shown_path(path))))
 }
 
 /// What a script does with the window, turn by turn.

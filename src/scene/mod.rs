@@ -25,5 +25,7 @@ pub use document::Document;
 pub use edit::{BodyChange, Edit, EditError, Edited, ForceChange};
 pub use number::NumberStyle;
 pub use params::{PARAMS, ParamInfo, SimParams};
-pub use save::{FileId, FileStamp, canonical_target, check_writable, write_atomically, write_private};
+pub use save::{
+    FileId, FileStamp, canonical_target, check_writable, same_file, write_atomically, write_private,
+};
 pub use types::{Body, Force, ForceKind, Map, Motion, NodeKey, Scene, Shape, rotation_matrix};

@@ -119,6 +119,12 @@ pub fn canonical_target(path: &Path) -> PathBuf {
     }
 }
 
+/// Whether two paths mean one file, which need not exist: by name, or as links of one file.
+pub fn same_file(one: &Path, other: &Path) -> bool {
+    let id = |path| fs::metadata(path).ok().and_then(|metadata| FileId::of(&metadata));
+    canonical_target(one) == canonical_target(other) || id(one).is_some_and(|one| id(other) == Some(one))
+}
+
 /// The file that a path means in the end, which need not exist yet.
 fn follow_links(path: &Path) -> io::Result<PathBuf> {
     /// As many as Linux follows.

@@ -28,7 +28,8 @@ use crate::sim::{EventKind, Method};
 ///
 /// All quantities are in SI units: metres, seconds, kilograms, joules. Δt only says when to look: events
 /// and states are the same bits for every Δt, unless --method asks for one that steps by Δt. The TimeSpeed of the file is for watching and scales nothing
-/// here. Without an output on standard output a summary for people is printed.
+/// here. Without an output on standard output a summary for people is printed. A run that
+/// --max-events or --max-wall stops writes the state it reached.
 #[derive(Debug, Args)]
 #[command(after_help = examples(), after_long_help = long_help())]
 pub struct RunArgs {
