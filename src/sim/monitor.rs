@@ -23,18 +23,7 @@ pub(super) fn worst_overlap(model: &Model, state: &State, time: f64) -> f64 {
 /// no simulation could begin in a sensible time.
 pub(super) fn start_warnings(model: &Model, state: &State) -> Result<Vec<Diagnostic>, Diagnostic> {
     let mut warnings = overlap_warnings(model, state)?;
-    let size = model.grid.tile_size * DVec3::from(model.grid.counts.map(f64::from));
-    for body in present(model) {
-        let at = state.position(body, state.now);
-        if at.cmplt(DVec3::ZERO).any() || at.cmpgt(size).any() {
-            let identity = &model.movers[body as usize].identity;
-            warnings.push(warning(
-                identity,
-                format!("body {} starts outside the map", identity.name),
-                "move it inside or enlarge the map; it is simulated all the same",
-            ));
-        }
-    }
+    warnings.extend(outside_warnings(model, state));
     warnings.sort_by_key(|warning| warning.key);
     Ok(warnings)
 }
@@ -72,6 +61,29 @@ fn overlap_warnings(model: &Model, state: &State) -> Result<Vec<Diagnostic>, Dia
         warnings.push(about_all(format!("and {more} more overlaps at the start"), "fix the first ones"));
     }
     Ok(warnings)
+}
+
+fn outside_warnings(model: &Model, state: &State) -> Vec<Diagnostic> {
+    let size = model.grid.tile_size * DVec3::from(model.grid.counts.map(f64::from));
+    let is_outside = |body: &u32| {
+        let at = state.position(*body, state.now);
+        at.cmplt(DVec3::ZERO).any() || at.cmpgt(size).any()
+    };
+    let mut outside = present(model).filter(is_outside);
+    let first = outside.by_ref().take(MOST_WARNINGS).map(|body| {
+        let identity = &model.movers[body as usize].identity;
+        let message = format!("body {} starts outside the map", identity.name);
+        warning(identity, message, "move it inside or enlarge the map; it is simulated all the same")
+    });
+    let mut warnings: Vec<Diagnostic> = first.collect();
+    let more = outside.count();
+    if more > 0 {
+        warnings.push(about_all(
+            format!("and {more} more bodies start outside the map"),
+            "move them inside or enlarge the map",
+        ));
+    }
+    warnings
 }
 
 /// Four digits, without an exponent where a person would write none.
@@ -126,7 +138,8 @@ fn distance(model: &Model, state: &State, body: u32, other: Other, time: f64) ->
     }
 }
 
-/// Overlaps listed at most: bodies piled on one point would give as many as there are pairs.
+/// Overlaps, and bodies outside the map, listed at most: bodies piled on one point would give as many as there
+/// are pairs.
 const MOST_WARNINGS: usize = 200;
 
 /// Overlapping pairs per body with which a simulation still begins. A ball touches at most 12 of its own size,

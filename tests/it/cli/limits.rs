@@ -161,3 +161,25 @@ fn the_wall_clock_ends_a_program_that_is_stuck() {
     assert_eq!(outcome.code, 4, "{}", outcome.stderr);
     assert!(since.elapsed() < Duration::from_secs(15), "it took {:?}", since.elapsed());
 }
+
+/// Symptom: a list of problems as long as the scene has bodies. Expected: the first of each kind and a number.
+#[test]
+fn problems_of_the_start_are_counted_beyond_the_first() {
+    let bench = Bench::new();
+    let mut bodies = String::new();
+    for id in 100..1100 {
+        let place = format!("<Translation X=\"{}\" Y=\"-9\" Z=\"5\"/>", f64::from(id) * 0.5);
+        write!(
+            bodies,
+            "<SoftObject UserID=\"{id}\">{place}<Sphere><Radius F32=\"0.5\"/></Sphere></SoftObject>"
+        )
+        .expect("a string");
+    }
+    bench.write("row.xml", BOUNCE.replace("</Primitives>", &format!("{bodies}</Primitives>")));
+    let outcome = bench.polyscene(&["check", "row.xml"]);
+    assert_eq!(outcome.code, 0, "{}", outcome.stderr);
+    assert!(outcome.stdout.lines().count() <= 403, "{}", outcome.stdout.lines().count());
+    for counted in ["and 799 more overlaps", "and 800 more bodies start outside the map"] {
+        assert!(outcome.stdout.contains(counted), "{counted}");
+    }
+}
