@@ -7,8 +7,7 @@
 
 use std::collections::BTreeSet;
 
-use super::BodyRef;
-use super::account::present;
+use super::event::BodyRef;
 use super::model::Model;
 use super::state::State;
 
@@ -33,11 +32,11 @@ impl CandidateSet {
 pub(super) fn candidate_sets(model: &Model, state: &State) -> Vec<CandidateSet> {
     let grid = &model.grid;
     sets_by_tile(
-        present(model),
+        model.present(),
         |body| state.registered[body as usize].tiles().map(|tile| grid.key(tile)).collect(),
         |key| {
             let tile = grid.tile_of_key(key);
-            (state.moving.bodies(grid, tile), model.static_tiles.bodies(grid, tile))
+            (state.dynamic_tiles.bodies(grid, tile), model.static_tiles.bodies(grid, tile))
         },
     )
 }

@@ -5,19 +5,21 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::account::{book_segment, energies, momentum_value};
-use super::compile::{Compiled, check_force, compile_body};
-use super::contact::Partner;
-use super::engine::record;
+use super::body::BodyId;
+use super::books::{book_segment, energies, momentum_value};
+use super::compile::{check_force, compile_body};
+use super::drive::begin_all;
+use super::edit::{EditRefused, SimEdit};
+use super::event::{BodyRef, Event, EventKind};
+use super::fault::Fault;
 use super::force::{Force, ForceEntry, Law};
-use super::method::begin_all;
+use super::ledger::record;
 use super::model::Model;
 use super::neighbours::enter;
 use super::plan::plan_of;
 use super::segment::Segment;
 use super::state::State;
 use super::tiles::StaticTiles;
-use super::{BodyRef, EditRefused, Event, EventKind, Fault, SimEdit};
 use crate::scene::{Body, NodeKey};
 
 /// Applies an edit at `state.now`. Refused, it may leave both half changed: give it copies.
@@ -86,7 +88,7 @@ struct Books {
 impl Books {
     fn read(model: &Model, state: &mut State) -> Self {
         let time = state.now;
-        for body in super::account::present(model) {
+        for body in model.present() {
             book_segment(model, state, body, time);
             cut(state, body, time);
         }
@@ -106,142 +108,113 @@ fn restart_all(
     model: &Model,
     state: &mut State,
     before: &Books,
-    changed: Option<BodyRef>,
+    changed: Option<BodyId>,
 ) -> Result<(), Fault> {
     let time = state.now;
     let (kinetic, potential) = energies(model, state, time);
     state.account.edit_work.add(kinetic + potential.unwrap_or(0.0) - before.energy);
     let momentum = momentum_value(model, state, time).0;
     state.account.impulses.add(momentum - before.momentum);
-    let place = changed.map_or(DVec3::ZERO, |body| place_of(model, state, body));
-    record(state, Event::of_one(time, EventKind::Edit, changed.unwrap_or(BodyRef::NONE), place));
+    let place = changed.map_or(DVec3::ZERO, |body| state.path_of(model, body).segment.x);
+    let subject = changed.map_or(BodyRef::NONE, BodyId::to_ref);
+    record(state, Event::of_one(time, EventKind::Edit, subject, place));
     begin_all(model, state)
 }
 
-fn place_of(model: &Model, state: &State, body: BodyRef) -> DVec3 {
-    match body {
-        BodyRef::Dynamic(index) => state.segments[index as usize].x,
-        BodyRef::Static(index) => model.fixtures[index as usize].position,
-    }
-}
-
-fn add_body(model: &mut Model, state: &mut State, body: &Body) -> Result<BodyRef, EditRefused> {
+fn add_body(model: &mut Model, state: &mut State, body: &Body) -> Result<BodyId, EditRefused> {
     if find(model, body.key).is_some() {
         return Err(EditRefused(format!("body {} is there already", body.label)));
     }
-    let movers = model.movers.iter().map(|mover| mover.identity.id);
-    let fixtures = model.fixtures.iter().map(|fixture| fixture.identity.id);
-    let order = movers.chain(fixtures).filter(|id| *id == body.id).count() as u32;
-    match compile_body(body, order).map_err(|problem| EditRefused(problem.message))? {
-        Compiled::Mover(mover, start) => {
-            model.radii.push(mover.radius);
-            model.movers.push(mover);
-            if 2.0 * mover_radius(&model.movers) > MOST_TILES_ACROSS * model.grid.tile_size.min_element() {
-                return Err(EditRefused(format!(
-                    "body {} spans too many tiles for the grid of this run; reset to run it",
-                    body.label
-                )));
-            }
-            let index = state.push_body(start);
-            enter(model, state, index, state.now);
-            Ok(BodyRef::Dynamic(index))
-        }
-        Compiled::Fixture(fixture) => {
-            model.fixtures.push(fixture);
-            remake_static_tiles(model);
-            Ok(BodyRef::Static(model.fixtures.len() as u32 - 1))
-        }
+    let order = model.bodies.iter().filter(|(_, other)| other.identity.id == body.id).count() as u32;
+    let (compiled, origin) = compile_body(body, order).map_err(|problem| EditRefused(problem.message))?;
+    let id = model.bodies.push(compiled, origin.position);
+    let Some(index) = id.dynamic() else {
+        remake_static_tiles(model);
+        return Ok(id);
+    };
+    if 2.0 * model.radius(index) > MOST_TILES_ACROSS * model.grid.tile_size.min_element() {
+        return Err(EditRefused(format!(
+            "body {} spans too many tiles for the grid of this run; reset to run it",
+            body.label
+        )));
     }
+    let row = state.push_body(origin);
+    debug_assert_eq!(row, index, "every dynamic body has its row in all columns");
+    enter(model, state, index, state.now);
+    Ok(id)
 }
 
 /// Tiles across a body added while it runs, at most: the grid was made for the bodies of the start.
 const MOST_TILES_ACROSS: f64 = 64.0;
 
-fn mover_radius(movers: &[super::model::MoverInfo]) -> f64 {
-    movers.last().map_or(0.0, |mover| mover.radius)
-}
-
-fn remove(model: &mut Model, state: &mut State, key: NodeKey) -> Result<Option<BodyRef>, EditRefused> {
+fn remove(model: &mut Model, state: &mut State, key: NodeKey) -> Result<Option<BodyId>, EditRefused> {
     if let Some(index) = model.forces.iter().position(|entry| entry.key == Some(key)) {
         model.forces.remove(index);
         return Ok(None);
     }
     let body = find(model, key).ok_or_else(|| EditRefused("that body is not in the run".into()))?;
-    match body {
-        BodyRef::Dynamic(index) => {
-            model.movers[index as usize].present = false;
-            state.moving.remove(&model.grid, state.registered[index as usize], index);
-            // Nothing predicted about it holds any more.
-            state.stamps[index as usize] = state.stamps[index as usize].wrapping_add(1);
-            state.forget_touching(index);
-            state.contacts[index as usize].clear();
-            drop_contacts_with(state, Partner::Dynamic(index));
-        }
-        BodyRef::Static(index) => {
-            model.fixtures[index as usize].present = false;
-            remake_static_tiles(model);
-            drop_contacts_with(state, Partner::Static(index));
-        }
-    }
+    model.bodies.get_mut(body).present = false;
+    drop_contacts_with(state, body);
+    let Some(index) = body.dynamic() else {
+        remake_static_tiles(model);
+        return Ok(Some(body));
+    };
+    state.dynamic_tiles.remove(&model.grid, state.registered[index as usize], index);
+    // Nothing predicted about it holds any more.
+    state.stamps[index as usize] = state.stamps[index as usize].wrapping_add(1);
+    state.forget_touching(index);
+    state.contacts[index as usize].clear();
     Ok(Some(body))
 }
 
-fn change_static(model: &mut Model, state: &mut State, body: &Body) -> Result<BodyRef, EditRefused> {
-    let Some(BodyRef::Static(index)) = find(model, body.key) else {
+fn change_static(model: &mut Model, state: &mut State, body: &Body) -> Result<BodyId, EditRefused> {
+    let Some(id) = find(model, body.key).filter(|id| id.is_static()) else {
         return Err(EditRefused(format!("body {} is no static body of the run", body.label)));
     };
-    let order = model.fixtures[index as usize].identity.order;
-    match compile_body(body, order).map_err(|problem| EditRefused(problem.message))? {
-        Compiled::Fixture(fixture) => model.fixtures[index as usize] = fixture,
-        Compiled::Mover(..) => {
-            return Err(EditRefused("a static body can't become dynamic while running".into()));
-        }
+    let order = model.body(id).identity.order;
+    let (compiled, origin) = compile_body(body, order).map_err(|problem| EditRefused(problem.message))?;
+    if !compiled.is_static() {
+        return Err(EditRefused("a static body can't become dynamic while running".into()));
     }
+    model.bodies.replace_static(id.index(), compiled, origin.position);
     remake_static_tiles(model);
-    drop_contacts_with(state, Partner::Static(index));
-    Ok(BodyRef::Static(index))
+    drop_contacts_with(state, id);
+    Ok(id)
 }
 
-fn set_bounce(model: &mut Model, key: NodeKey, bounce: f64) -> Result<BodyRef, EditRefused> {
+fn set_bounce(model: &mut Model, key: NodeKey, bounce: f64) -> Result<BodyId, EditRefused> {
     if !(bounce.is_finite() && bounce >= 0.0) {
         return Err(EditRefused(format!("Bounce must be 0 or more, not {bounce}")));
     }
     let body = find(model, key).ok_or_else(|| EditRefused("that body is not in the run".into()))?;
-    match body {
-        BodyRef::Dynamic(index) => model.movers[index as usize].bounce = bounce,
-        BodyRef::Static(index) => model.fixtures[index as usize].bounce = bounce,
-    }
+    model.bodies.get_mut(body).bounce = bounce;
     Ok(body)
 }
 
-fn set_mass(model: &mut Model, key: NodeKey, mass: f64) -> Result<BodyRef, EditRefused> {
+fn set_mass(model: &mut Model, key: NodeKey, mass: f64) -> Result<BodyId, EditRefused> {
     if !(mass.is_finite() && mass > 0.0) {
         return Err(EditRefused(format!("Weight must be above 0, not {mass}")));
     }
     match find(model, key) {
-        Some(body @ BodyRef::Dynamic(index)) => {
-            model.movers[index as usize].mass = mass;
+        Some(body) if !body.is_static() => {
+            model.bodies.get_mut(body).set_mass(mass);
             Ok(body)
         }
         _ => Err(EditRefused("only a dynamic body has a mass".into())),
     }
 }
 
-pub(super) fn find(model: &Model, key: NodeKey) -> Option<BodyRef> {
-    let moving = model.movers.iter().position(|mover| mover.present && mover.identity.key == key);
-    let fixed = || model.fixtures.iter().position(|fixture| fixture.present && fixture.identity.key == key);
-    moving
-        .map(|index| BodyRef::Dynamic(index as u32))
-        .or_else(|| fixed().map(|index| BodyRef::Static(index as u32)))
+pub(super) fn find(model: &Model, key: NodeKey) -> Option<BodyId> {
+    model.bodies.iter().find(|(_, body)| body.present && body.identity.key == key).map(|(id, _)| id)
 }
 
 fn remake_static_tiles(model: &mut Model) {
     let limit = model.params.static_tile_limit as u64;
-    model.static_tiles = StaticTiles::new(&model.grid, &model.fixtures, limit);
+    model.static_tiles = StaticTiles::new(&model.grid, &model.bodies, limit);
 }
 
-fn drop_contacts_with(state: &mut State, partner: Partner) {
+fn drop_contacts_with(state: &mut State, other: BodyId) {
     for contacts in &mut state.contacts {
-        contacts.retain(|contact| contact.partner != partner);
+        contacts.retain(|contact| contact.other != other);
     }
 }

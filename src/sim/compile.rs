@@ -4,38 +4,33 @@ use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
 
-use super::Method;
+use super::body::{Bodies, Body, Identity, Origin};
 use super::force::{ForceEntry, Law};
-use super::model::{Fixture, FixtureShape, Identity, Model, MoverInfo, Plate};
+use super::method::Method;
+use super::model::Model;
 use super::plan::plan_of;
+use super::report::Plan;
+use super::shape::{self, Plate, Sphere};
 use super::tiles::{Grid, StaticTiles};
-use crate::scene::{Body, Diagnostic, Force, ForceKind, Motion, Scene, Severity, Shape, rotation_matrix};
-
-/// Start of one dynamic body.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Start {
-    pub position: DVec3,
-    pub velocity: DVec3,
-}
+use crate::scene::{self, Diagnostic, Force, ForceKind, Motion, Scene, Severity, Shape, rotation_matrix};
 
 /// The model, and where its dynamic bodies start (same order).
-pub(super) fn compile(scene: &Scene, method: Method) -> Result<(Model, Vec<Start>), Vec<Diagnostic>> {
-    let mut bodies: Vec<&Body> = scene.bodies.iter().collect();
+pub(super) fn compile(scene: &Scene, method: Method) -> Result<(Model, Vec<Origin>), Vec<Diagnostic>> {
+    let mut sorted: Vec<&scene::Body> = scene.bodies.iter().collect();
     // Stable: bodies of the same id stay in file order.
-    bodies.sort_by_key(|body| body.id);
-    let mut movers = Vec::new();
-    let mut starts = Vec::new();
-    let mut fixtures = Vec::new();
+    sorted.sort_by_key(|body| body.id);
+    let mut bodies = Bodies::default();
+    let mut origins = Vec::new();
     let mut problems = check_world(scene);
     let mut order = 0;
-    for (index, body) in bodies.iter().enumerate() {
-        order = if index > 0 && bodies[index - 1].id == body.id { order + 1 } else { 0 };
+    for (index, body) in sorted.iter().enumerate() {
+        order = if index > 0 && sorted[index - 1].id == body.id { order + 1 } else { 0 };
         match compile_body(body, order) {
-            Ok(Compiled::Mover(mover, start)) => {
-                movers.push(mover);
-                starts.push(start);
+            Ok((body, origin)) => {
+                if !bodies.push(body, origin.position).is_static() {
+                    origins.push(origin);
+                }
             }
-            Ok(Compiled::Fixture(fixture)) => fixtures.push(fixture),
             Err(problem) => problems.push(problem),
         }
     }
@@ -47,71 +42,50 @@ pub(super) fn compile(scene: &Scene, method: Method) -> Result<(Model, Vec<Start
         .iter()
         .map(|force| ForceEntry { key: Some(force.key), law: Law::from_kind(&force.kind) })
         .collect();
-    let largest = movers.iter().map(|mover: &MoverInfo| mover.radius).fold(0.0, f64::max);
+    let largest = bodies.dynamic().iter().map(|body| body.shape.radius()).fold(0.0, f64::max);
     let grid = Grid::new(&scene.map, largest);
-    let static_tiles = StaticTiles::new(&grid, &fixtures, scene.params.static_tile_limit as u64);
+    let static_tiles = StaticTiles::new(&grid, &bodies, scene.params.static_tile_limit as u64);
     let mut model = Model {
         params: scene.params,
         method,
-        radii: movers.iter().map(|mover| mover.radius).collect(),
-        movers,
-        fixtures,
+        bodies,
         forces,
         grid,
         static_tiles,
-        plan: super::Plan::default(),
+        plan: Plan::default(),
         start_warnings: Vec::new(),
     };
     model.plan = plan_of(&model);
-    Ok((model, starts))
+    Ok((model, origins))
 }
 
-/// One body of a model.
-pub(super) enum Compiled {
-    Mover(MoverInfo, Start),
-    Fixture(Fixture),
-}
-
-pub(super) fn compile_body(body: &Body, order: u32) -> Result<Compiled, Diagnostic> {
+/// One body of a model. `order` is its place among those of its id.
+pub(super) fn compile_body(body: &scene::Body, order: u32) -> Result<(Body, Origin), Diagnostic> {
     check_numbers(body)?;
+    let (mass, velocity) = match body.motion {
+        Motion::Dynamic { mass, velocity } => (mass, velocity),
+        Motion::Static => (f64::INFINITY, DVec3::ZERO),
+    };
+    let shape = compile_shape(body)?;
     let (label, name) = (Arc::from(body.label.as_str()), Arc::from(body.display_name()));
-    let identity = Box::new(Identity { key: body.key, id: body.id, label, name, order });
+    let identity = Identity { key: body.key, id: body.id, label, name, order };
+    let compiled = Body::new(identity, mass, body.bounce, shape, body.material.as_deref());
+    Ok((compiled, Origin { position: body.position, velocity }))
+}
+
+fn compile_shape(body: &scene::Body) -> Result<shape::Shape, Diagnostic> {
     match (&body.motion, &body.shape) {
-        (Motion::Dynamic { mass, velocity }, Shape::Sphere { radius }) => Ok(Compiled::Mover(
-            MoverInfo {
-                identity,
-                mass: *mass,
-                radius: *radius,
-                bounce: body.bounce,
-                material: body.material.as_deref().map(Arc::from),
-                present: true,
-            },
-            Start { position: body.position, velocity: *velocity },
-        )),
-        (Motion::Static, Shape::Sphere { radius }) => Ok(Compiled::Fixture(Fixture {
-            identity,
-            bounce: body.bounce,
-            position: body.position,
-            shape: FixtureShape::Sphere { radius: *radius },
-            present: true,
-        })),
+        (_, Shape::Sphere { radius }) => Ok(shape::Shape::Sphere(Sphere { radius: *radius })),
         (Motion::Static, Shape::Plane { half_x, half_y }) => {
             let frame = snapped(rotation_matrix(body.rotation));
-            let plate = Plate {
+            Ok(shape::Shape::Plate(Box::new(Plate {
                 center: body.position,
                 axis_x: frame.x_axis,
                 axis_y: frame.y_axis,
                 normal: frame.z_axis,
                 half_x: *half_x,
                 half_y: *half_y,
-            };
-            Ok(Compiled::Fixture(Fixture {
-                identity,
-                bounce: body.bounce,
-                position: body.position,
-                shape: FixtureShape::Plate(Box::new(plate)),
-                present: true,
-            }))
+            })))
         }
         (Motion::Dynamic { .. }, Shape::Plane { .. }) => {
             Err(problem(body, "a plane can't be dynamic", "make it a HardObject, or use another shape"))
@@ -125,7 +99,7 @@ pub(super) fn compile_body(body: &Body, order: u32) -> Result<Compiled, Diagnost
 }
 
 /// Scenes made by code have passed no reader.
-fn check_numbers(body: &Body) -> Result<(), Diagnostic> {
+fn check_numbers(body: &scene::Body) -> Result<(), Diagnostic> {
     let wrong = |what: &str, hint: &str| Err(problem(body, &format!("{what} is out of range"), hint));
     if !body.position.is_finite() || !body.rotation.is_finite() {
         return wrong("its position or rotation", "give finite numbers");
@@ -189,7 +163,7 @@ pub(super) fn check_force(force: &Force) -> Result<(), Diagnostic> {
     })
 }
 
-fn problem(body: &Body, what: &str, hint: &str) -> Diagnostic {
+fn problem(body: &scene::Body, what: &str, hint: &str) -> Diagnostic {
     Diagnostic {
         severity: Severity::Error,
         position: None,

@@ -7,6 +7,8 @@
 
 use glam::DVec3;
 
+use super::tolerance::{DEPENDENT, ENTERING, LEFT_OVER, RAISE, REFINEMENTS};
+
 /// One contact as a bound on the motion of the bodies of a group: (w_a − w_b)·towards ≤ limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Link {
@@ -83,11 +85,6 @@ pub(super) fn stay_on(links: &[Link], inverse_mass: &[f64], motion: &mut [DVec3]
     multipliers
 }
 
-/// What still enters below this fraction of the largest counts as rounding.
-const TOLERANCE: f64 = 1e-14;
-/// What is left of a motion below this fraction of what was taken from it is rounding, and would creep.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
-
 fn apply(links: &[Link], inverse_mass: &[f64], motion: &mut [DVec3], multipliers: &[f64]) {
     let mut sizes: Vec<f64> = motion.iter().map(|w| w.length()).collect();
     let mut touched = vec![false; motion.len()];
@@ -106,7 +103,7 @@ fn apply(links: &[Link], inverse_mass: &[f64], motion: &mut [DVec3], multipliers
         .map(|(size, _)| *size)
         .fold(0.0, f64::max);
     for (w, touched) in motion.iter_mut().zip(touched) {
-        if touched && w.length() <= ROUNDING * size {
+        if touched && w.length() <= LEFT_OVER * size {
             *w = DVec3::ZERO;
         }
     }
@@ -127,7 +124,7 @@ fn unilateral(matrix: &Delassus, excess: &[f64], largest: f64) -> Vec<f64> {
     for _ in 0..4 * size + 8 {
         let left = |k: usize, multipliers: &[f64]| excess[k] - matrix.row(k, multipliers);
         let pushes = (0..size).map(|k| multipliers[k] * matrix.at(k, k));
-        let tolerance = TOLERANCE * pushes.fold(largest, f64::max);
+        let tolerance = ENTERING * pushes.fold(largest, f64::max);
         let worst = (0..size)
             .filter(|k| !active.contains(k))
             .map(|k| (k, left(k, &multipliers)))
@@ -179,11 +176,9 @@ enum Dependent {
 impl Dependent {
     /// The pivot to go on with instead of what is left of a diagonal entry; infinite leaves its row out.
     fn pivot(self, left: f64, entry: f64) -> f64 {
-        const RAISE: f64 = 1e-10;
-        const SMALLEST: f64 = 1e-9;
         match self {
             Self::Share => (left + RAISE * entry).max(f64::MIN_POSITIVE),
-            Self::LeaveOut if left <= SMALLEST * entry => f64::INFINITY,
+            Self::LeaveOut if left <= DEPENDENT * entry => f64::INFINITY,
             Self::LeaveOut => left,
         }
     }
@@ -214,7 +209,6 @@ impl Delassus {
 
     /// λ with Aλ = right on the rows and columns of `active`, 0 elsewhere.
     fn solve(&self, active: &[usize], right: &[f64], dependent: Dependent) -> Vec<f64> {
-        const REFINEMENTS: u32 = 3;
         let size = active.len();
         let mut factor = vec![0.0; size * size];
         for i in 0..size {

@@ -1,32 +1,36 @@
 //! The step: one predicted event after the other. [`advance`] is its table of contents.
 
-use glam::DVec3;
-
-use super::account::present;
-use super::contact::{Pair, Partner, gap_of};
-use super::group::SAME_INSTANT;
-use super::impact::{self, contact_event};
-use super::island::{From, part, restart};
+use super::body::BodyId;
+use super::event::{Event, EventKind};
+use super::fault::Fault;
+use super::force::Law;
+use super::geometry::gap_of;
+use super::impact;
+use super::island::part;
+use super::ledger::{record, record_contact};
 use super::model::Model;
-use super::motion::{SegmentError, turn_back};
-use super::neighbours::{predict_core_passes, predict_fixture, predict_pair, reregister};
-use super::predict::{self, Gap};
+use super::motion::turn_back;
+use super::neighbours::{a_little_after, predict_core_passes, predict_pair, reregister};
+use super::pair::Pair;
+use super::predict::{Gap, touch_tolerance};
 use super::queue::{Kind, Predicted};
+use super::restart::{Start, restart};
 use super::state::State;
-use super::{BodyRef, Event, EventKind, Fault};
+use super::tolerance::{FOUND, SAME_INSTANT, TIME_ROUNDING};
 
 /// Carries out the next predicted event that is not after `state.until`; false when there is none.
 /// What it has to report is left in the outbox.
 pub(super) fn advance(model: &Model, state: &mut State) -> Result<bool, Fault> {
     let Some(next) = pop(state, state.until) else { return Ok(false) };
+    debug_assert!(next.time >= state.reached, "predictions come in the order of time: {next:?}");
     state.reached = next.time;
     match next.kind {
         Kind::SegmentEnd => go_on(model, state, next.a, next.time)?,
         Kind::LeaveTiles => reregister(model, state, next.a, next.time),
         Kind::CorePass => pass_core(model, state, &next)?,
-        Kind::Settled | Kind::PairSettled => settled(model, state, &next),
-        Kind::ContactEnd | Kind::PairEnd => leave_contact(model, state, &next)?,
-        Kind::Impact | Kind::FixtureImpact => meet(model, state, &next)?,
+        Kind::Settled => settled(model, state, &next),
+        Kind::ContactEnd => leave_contact(model, state, &next)?,
+        Kind::Impact => meet(model, state, &next)?,
     }
     tidy(state);
     Ok(true)
@@ -49,9 +53,10 @@ fn tidy(state: &mut State) {
 
 /// Begins segments for all bodies at `state.now` and predicts everything: any of them may be concerned.
 pub(super) fn begin_all(model: &Model, state: &mut State) -> Result<(), Fault> {
-    let starts: Vec<From> = present(model)
+    let starts: Vec<Start> = model
+        .present()
         .map(|body| (body, state.segments[body as usize]))
-        .map(|(body, segment)| From { body, x: segment.x, v: segment.v })
+        .map(|(body, segment)| Start { body, x: segment.x, v: segment.v })
         .collect();
     restart(model, state, state.now, &starts)
 }
@@ -62,30 +67,24 @@ fn go_on(model: &Model, state: &mut State, body: u32, time: f64) -> Result<(), F
 }
 
 /// Where a body is on its segment.
-fn from_now(state: &State, body: u32, time: f64) -> From {
-    From { body, x: state.position(body, time), v: state.velocity(body, time) }
-}
-
-/// Who a prediction of two bodies is about.
-fn pair_of(next: &Predicted) -> Pair {
-    let partner = if next.kind.is_of_pair() { Partner::Dynamic(next.b) } else { Partner::Static(next.b) };
-    Pair::new(next.a, partner)
+fn from_now(state: &State, body: u32, time: f64) -> Start {
+    Start { body, x: state.position(body, time), v: state.velocity(body, time) }
 }
 
 /// Two bodies are due to touch.
 fn meet(model: &Model, state: &mut State, next: &Predicted) -> Result<(), Fault> {
-    let (pair, time) = (pair_of(next), next.time);
+    let (pair, time) = (next.pair(), next.time);
     let gap = gap_of(model, state, pair, time);
     if !(gap.is_closing() && is_closed(&gap, reach(model, pair), time)) {
         let from = if gap.is_closing() { time } else { a_little_after(time) };
-        look_again(model, state, pair, from, time);
+        predict_pair(model, state, pair, from, time);
         return Ok(());
     }
     let [also, rest] = simultaneous(model, state, pair, time, &gap);
-    let mut left: Vec<Pair> = also.iter().map(pair_of).collect();
+    let mut left: Vec<Pair> = also.iter().map(Predicted::pair).collect();
     let outcome = impact::resolve(model, state, time, pair, &gap, &mut left);
     // What was not part of it is due as before.
-    let unmet = also.into_iter().filter(|predicted| left.contains(&pair_of(predicted)));
+    let unmet = also.into_iter().filter(|predicted| left.contains(&predicted.pair()));
     rest.into_iter().chain(unmet).for_each(|predicted| state.queue.push(predicted));
     outcome
 }
@@ -99,12 +98,12 @@ fn simultaneous(model: &Model, state: &mut State, pair: Pair, time: f64, gap: &G
     let window = (params.contact_distance / gap.rate.abs()).min(longest);
     let (mut also, mut rest) = (Vec::new(), Vec::new());
     while let Some(next) = pop(state, time + window) {
-        let is_impact = matches!(next.kind, Kind::Impact | Kind::FixtureImpact);
-        if is_impact && pair_of(&next) == pair {
+        let is_impact = next.kind == Kind::Impact;
+        if is_impact && next.pair() == pair {
             continue;
         }
         let meets = || {
-            let gap = gap_of(model, state, pair_of(&next), time);
+            let gap = gap_of(model, state, next.pair(), time);
             gap.rate < 0.0 && gap.distance <= params.contact_distance
         };
         if is_impact && meets() { also.push(next) } else { rest.push(next) }
@@ -114,29 +113,14 @@ fn simultaneous(model: &Model, state: &mut State, pair: Pair, time: f64, gap: &G
 
 /// The larger radius of a pair, m.
 fn reach(model: &Model, pair: Pair) -> f64 {
-    pair.bodies().map(|body| model.movers[body as usize].radius).fold(0.0, f64::max)
-}
-
-/// Predicts again what was no contact.
-pub(super) fn look_again(model: &Model, state: &mut State, pair: Pair, from: f64, time: f64) {
-    match pair.partner {
-        Partner::Dynamic(other) => predict_pair(model, state, pair.a, other, from, time),
-        Partner::Static(fixture) => predict_fixture(model, state, pair.a, fixture, from, time),
-    }
-}
-
-/// Where to go on looking after a prediction that led to nothing: the same time would only give the same
-/// answer.
-pub(super) fn a_little_after(time: f64) -> f64 {
-    const LATER: f64 = 1e-9;
-    time + LATER.max(4.0 * f64::EPSILON * time)
+    pair.dynamic().map(|body| model.radius(body)).fold(0.0, f64::max)
 }
 
 /// Whether surfaces are as near as a found root leaves them: a search that gave up is farther off. A root
 /// is known to the rounding of the time, in which they come nearer by |ḋ| times that.
 fn is_closed(gap: &Gap, radius: f64, time: f64) -> bool {
-    let rounding_of_time = 16.0 * f64::EPSILON * time * gap.rate.abs();
-    gap.distance <= 1e3 * predict::touch_tolerance(gap.point, radius) + rounding_of_time
+    let rounding_of_time = TIME_ROUNDING * time * gap.rate.abs();
+    gap.distance <= FOUND * touch_tolerance(gap.point, radius) + rounding_of_time
 }
 
 /// The body is turned back on its line at the core of a point attractor, the limit of ever thinner
@@ -145,7 +129,9 @@ fn is_closed(gap: &Gap, radius: f64, time: f64) -> bool {
 fn pass_core(model: &Model, state: &mut State, next: &Predicted) -> Result<(), Fault> {
     let (body, time) = (next.a, next.time);
     let (x, v) = (state.position(body, time), state.velocity(body, time));
-    let super::force::Law::Point { center, .. } = model.forces[next.b as usize].law else { return Ok(()) };
+    let Law::Point { center, .. } = model.forces[next.b.index() as usize].law else {
+        return Ok(());
+    };
     if (center - x).length() > 2.0 * model.params.core_radius {
         predict_core_passes(model, state, body, time);
         return Ok(());
@@ -156,25 +142,25 @@ fn pass_core(model: &Model, state: &mut State, next: &Predicted) -> Result<(), F
         return Ok(());
     }
     let turned = if turn_back(model, state, body, time) { -v } else { v - 2.0 * speed * inward };
-    let mass = model.movers[body as usize].mass;
+    let mass = model.mass(body);
     state.account.impulses.add(mass * (turned - v));
-    record(state, Event::of_one(time, EventKind::SingularPass, BodyRef::Dynamic(body), x));
-    restart(model, state, time, &[From { body, x, v: turned }])
+    record(state, Event::of_one(time, EventKind::SingularPass, BodyId::of_dynamic(body).to_ref(), x));
+    restart(model, state, time, &[Start { body, x, v: turned }])
 }
 
 /// The limit time of the bounces of two bodies has come.
 fn settled(model: &Model, state: &mut State, next: &Predicted) {
-    let (pair, time) = (pair_of(next), next.time);
+    let (pair, time) = (next.pair(), next.time);
     let mut was_due = false;
-    for (body, partner) in pair.ends() {
+    for (body, other) in pair.ends() {
         let contacts = &mut state.contacts[body as usize];
-        let contact = contacts.iter_mut().find(|contact| contact.partner == partner);
+        let contact = contacts.iter_mut().find(|contact| contact.other == other);
         was_due |= contact.is_some_and(|contact| contact.settles_at.take().is_some());
     }
     if was_due {
         record_contact(model, state, time, EventKind::Rest, pair);
-        let speed = pair.other().map_or(DVec3::ZERO, |other| state.velocity(other, time));
-        if state.velocity(pair.a, time) != speed {
+        let speed = state.path_of(model, pair.b).velocity(time);
+        if state.velocity(pair.first(), time) != speed {
             record_contact(model, state, time, EventKind::Slide, pair);
         }
     }
@@ -182,65 +168,8 @@ fn settled(model: &Model, state: &mut State, next: &Predicted) {
 
 /// A surface ends under a body, or nothing presses two bodies together any more.
 fn leave_contact(model: &Model, state: &mut State, next: &Predicted) -> Result<(), Fault> {
-    let (pair, time) = (pair_of(next), next.time);
+    let (pair, time) = (next.pair(), next.time);
     part(model, state, pair, time);
-    let starts: Vec<From> = pair.bodies().map(|body| from_now(state, body, time)).collect();
+    let starts: Vec<Start> = pair.dynamic().map(|body| from_now(state, body, time)).collect();
     restart(model, state, time, &starts)
-}
-
-pub(super) fn fault(model: &Model, body: u32, time: f64, error: SegmentError) -> Fault {
-    let name = &model.movers[body as usize].identity.name;
-    let message = match error {
-        SegmentError::NotFinite => {
-            format!(
-                "body {name}: position, velocity or force is not a finite number; look at its forces and start"
-            )
-        }
-        SegmentError::InCore => {
-            format!(
-                "body {name}: its centre lies on a point attractor, where the force has no value; move one of them"
-            )
-        }
-        SegmentError::Stalled => {
-            format!(
-                "body {name}: the integrator's step has shrunk to nothing; a force is singular or not smooth there"
-            )
-        }
-    };
-    Fault { time, message }
-}
-
-/// Puts an event into the outbox under the next sequence number.
-pub(super) fn record(state: &mut State, mut event: Event) {
-    state.sequence += 1;
-    event.seq = state.sequence;
-    let kind = EventKind::ALL.iter().position(|kind| *kind == event.kind).unwrap_or(0);
-    state.counters.events[kind] += 1;
-    state.outbox.push_back(event);
-}
-
-/// An event of two bodies that exchanges no impulse.
-pub(super) fn record_contact(model: &Model, state: &mut State, time: f64, kind: EventKind, pair: Pair) {
-    let gap = gap_of(model, state, pair, time);
-    let event = contact_event(time, kind, pair, &gap);
-    record(state, in_id_order(model, event));
-}
-
-/// The same event with the body of the smaller UserID first and the normal from it to the other.
-pub(super) fn in_id_order(model: &Model, mut event: Event) -> Event {
-    if let Some(b) = event.b
-        && rank(model, b) < rank(model, event.a)
-    {
-        (event.a, event.b, event.normal) = (b, Some(event.a), -event.normal);
-    }
-    event
-}
-
-/// UserID order.
-pub(super) fn rank(model: &Model, body: BodyRef) -> (i64, u32, BodyRef) {
-    let identity = match body {
-        BodyRef::Dynamic(index) => &model.movers[index as usize].identity,
-        BodyRef::Static(index) => &model.fixtures[index as usize].identity,
-    };
-    (identity.id, identity.order, body)
 }

@@ -14,13 +14,17 @@
 
 use glam::DVec3;
 
+use super::body::BodyId;
 use super::constraint::{Link, enter_none};
-use super::contact::{Bodies, Pair, Partner, Surface, gap_of, restitution_of, surface_of};
+use super::geometry::{BodiesAt, gap_of, restitution_of, surface_of};
 use super::island::Island;
 use super::model::Model;
 use super::neighbours::near;
+use super::pair::Pair;
 use super::predict::Gap;
+use super::shape::Surface;
 use super::state::State;
+use super::tolerance::{CLOSING_ROUNDING, LARGEST_REST, SAME_INSTANT, SMALLEST_SHARE};
 
 /// Bodies that touch, at the time of an impact.
 pub(super) struct Group {
@@ -56,7 +60,7 @@ impl Group {
     /// looked at.
     pub fn gather(model: &Model, state: &State, time: f64, first: Pair, also: &mut Vec<Pair>) -> Self {
         let mut pairs = vec![first];
-        let mut ids: Vec<u32> = first.bodies().collect();
+        let mut ids: Vec<u32> = first.dynamic().collect();
         let again = ids.iter().any(|body| hit_just_now(model, state, *body, time));
         let mut next = 0;
         while let Some(body) = ids.get(next).copied() {
@@ -65,7 +69,7 @@ impl Group {
                 if !pairs.contains(&pair) {
                     pairs.push(pair);
                 }
-                for other in pair.bodies() {
+                for other in pair.dynamic() {
                     if !ids.contains(&other) {
                         ids.push(other);
                     }
@@ -82,7 +86,7 @@ impl Group {
 
     /// The contacts as bounds on accelerations at the present velocities.
     pub fn acceleration_links(&self, model: &Model) -> Vec<Link> {
-        let bodies = Bodies { ids: &self.bodies.ids, x: &self.bodies.x, v: &self.bodies.v };
+        let bodies = BodiesAt { ids: &self.bodies.ids, x: &self.bodies.x, v: &self.bodies.v };
         self.members.iter().map(|member| bodies.link(model, member.pair, member.surface)).collect()
     }
 
@@ -94,7 +98,7 @@ impl Group {
     /// The rounding of a closing speed: below it nothing closes.
     pub fn rounding(&self, member: &Member) -> f64 {
         let speed = |body: usize| self.bodies.v[body].length();
-        16.0 * f64::EPSILON * (speed(member.link.a) + member.link.b.map_or(0.0, speed))
+        CLOSING_ROUNDING * (speed(member.link.a) + member.link.b.map_or(0.0, speed))
     }
 
     /// Rounds of reflections until nothing closes; whether they went on so long that it is an inelastic
@@ -124,7 +128,7 @@ impl Group {
     /// Whether pairs of moving bodies that lose energy met more often than a blow takes to run through the
     /// group and back.
     fn has_collapsed(&self, rounds: usize) -> bool {
-        let lossy = |member: &&Member| member.pair.other().is_some() && member.restitution < 1.0;
+        let lossy = |member: &&Member| member.pair.second().is_some() && member.restitution < 1.0;
         rounds > 4 + 2 * self.members.len() && self.members.iter().filter(lossy).count() > 1
     }
 
@@ -226,28 +230,23 @@ impl Group {
     }
 }
 
-/// What a plastic impact may leave of the largest closing speed before bodies seize: its rounding is far below.
-const LARGEST_REST: f64 = 1e-9;
-
-/// Closing speeds below this share of the largest at the start are taken plastically: a 1e-24th of the energy.
-const SMALLEST_SHARE: f64 = 1e-12;
-
 /// Contacts of one body: lasting ones, bodies that lie against it, and impacts of this instant.
 fn touching(
     model: &Model,
     state: &State,
     body: u32,
     time: f64,
-    nearby: &[Partner],
+    nearby: &[BodyId],
     also: &mut Vec<Pair>,
 ) -> Vec<Pair> {
-    let lasting = state.contacts[body as usize].iter().map(|contact| Pair::new(body, contact.partner));
-    let against = state.touching[body as usize].iter().map(|other| Pair::new(body, Partner::Dynamic(*other)));
+    let lasting = state.contacts[body as usize].iter().map(|contact| Pair::of(body, contact.other));
+    let against =
+        state.touching[body as usize].iter().map(|other| Pair::of(body, BodyId::of_dynamic(*other)));
     let near = |pair: &Pair| gap_of(model, state, *pair, time).distance <= model.params.contact_distance;
-    let nearby = nearby.iter().map(|partner| Pair::new(body, *partner));
+    let nearby = nearby.iter().map(|other| Pair::of(body, *other));
     let mut pairs: Vec<Pair> = lasting.chain(against.chain(nearby).filter(near)).collect();
     also.retain(|pair| {
-        let is_its = pair.bodies().any(|other| other == body);
+        let is_its = pair.involves(body);
         if is_its {
             pairs.push(*pair);
         }
@@ -261,19 +260,14 @@ pub(super) fn hit_just_now(model: &Model, state: &State, body: u32, time: f64) -
     time - state.segments[body as usize].start <= SAME_INSTANT * model.params.contact_duration
 }
 
-/// Impacts farther apart than this part of the contact duration are not of one instant, however slow.
-pub(super) const SAME_INSTANT: f64 = 1e-3;
-
 fn member(model: &Model, state: &State, bodies: &Island, pair: Pair, time: f64) -> Member {
-    let lasting = state.contacts[pair.a as usize].iter().find(|contact| contact.partner == pair.partner);
-    let surface = match (lasting, pair.partner) {
+    let lasting = state.contact(pair);
+    let surface = match (lasting, pair.second()) {
         (Some(contact), _) => contact.surface,
-        (None, Partner::Dynamic(_)) => Surface::Round,
-        (None, Partner::Static(fixture)) => {
-            surface_of(&model.fixtures[fixture as usize], state.position(pair.a, time))
-        }
+        (None, Some(_)) => Surface::Round,
+        (None, None) => surface_of(model, pair.b, state.position(pair.first(), time)),
     };
-    let at = Bodies { ids: &bodies.ids, x: &bodies.x, v: &bodies.v };
+    let at = BodiesAt { ids: &bodies.ids, x: &bodies.x, v: &bodies.v };
     let link = Link { limit: 0.0, ..at.link(model, pair, surface) };
     Member {
         pair,

@@ -1,7 +1,5 @@
 //! The state hash: FNV-1a over bits, to tell whether two runs are the same.
 
-use super::account::present;
-use super::lasting::contact_state;
 use super::model::Model;
 use super::state::State;
 
@@ -16,10 +14,10 @@ pub(super) fn of(model: &Model, state: &State) -> u64 {
         }
     };
     put(state.now.to_bits());
-    for body in present(model) {
+    for body in model.present() {
         let (x, v) = (state.position(body, state.now), state.velocity(body, state.now));
         x.to_array().into_iter().chain(v.to_array()).for_each(|value| put(value.to_bits()));
-        put(contact_state(state, body, state.now) as u64);
+        put(state.contact_state(body, state.now) as u64);
     }
     hash
 }

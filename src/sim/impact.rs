@@ -3,16 +3,21 @@
 
 use glam::DVec3;
 
-use super::contact::{Contact, Pair, restitution_of};
-use super::engine::{a_little_after, in_id_order, look_again, rank, record};
+use super::contact::Contact;
+use super::event::{Event, EventKind};
+use super::exchange::{exchange, velocity_change};
+use super::fault::Fault;
+use super::geometry::restitution_of;
 use super::group::{Group, Member, hit_just_now};
-use super::island::{From, part, restart};
-use super::lasting::{Settling, settle};
+use super::island::part;
+use super::ledger::{contact_event, in_id_order, rank, record};
 use super::model::Model;
+use super::neighbours::{a_little_after, predict_pair};
+use super::pair::Pair;
 use super::predict::{Gap, touch_tolerance};
-use super::restitution::{Blow, blow, reduced_mass};
+use super::restart::{Start, restart};
+use super::settle::{Settling, settle};
 use super::state::State;
-use super::{Event, EventKind, Fault};
 
 /// Two bodies touch while closing. `also` are impacts of the same instant, of which those connected with it
 /// are resolved too and taken out.
@@ -24,10 +29,10 @@ pub(super) fn resolve(
     gap: &Gap,
     also: &mut Vec<Pair>,
 ) -> Result<(), Fault> {
-    let is_lone = pair.bodies().all(|body| {
+    let is_lone = pair.dynamic().all(|body| {
         state.contacts[body as usize].is_empty()
             && state.touching[body as usize].is_empty()
-            && also.iter().all(|other| other.bodies().all(|other| other != body))
+            && also.iter().all(|other| !other.involves(body))
             && !hit_just_now(model, state, body, time)
     });
     let is_plain = !is_near_rest(model, pair, gap) && !is_in_cascade(model, state, pair, time);
@@ -45,7 +50,7 @@ pub(super) fn resolve(
         let counts =
             |body: u32| f64::from(state.cascades[body as usize].length) >= model.params.collapse_count;
         for member in &mut group.members {
-            if member.pair.bodies().any(counts) {
+            if member.pair.dynamic().any(counts) {
                 member.restitution = 0.0;
             }
         }
@@ -57,72 +62,30 @@ pub(super) fn resolve(
     finish(model, state, time, group)
 }
 
-/// Mass that an impulse between two bodies moves, kg.
-fn moved_mass(model: &Model, pair: Pair) -> f64 {
-    let mass = model.movers[pair.a as usize].mass;
-    pair.other().map_or(mass, |other| reduced_mass(mass, model.movers[other as usize].mass))
-}
-
 /// Whether the last bounces may have come: the full rule must decide.
 fn is_near_rest(model: &Model, pair: Pair, gap: &Gap) -> bool {
     let speed = restitution_of(model, pair) * -gap.rate;
-    let rounding = touch_tolerance(gap.point, model.movers[pair.a as usize].radius);
+    let rounding = touch_tolerance(gap.point, model.radius(pair.first()));
     speed <= model.params.rest_speed || speed * speed <= 4.0 * gap.drive.abs() * rounding
 }
 
 /// Newton's law for two bodies that touch nothing else, which then go on.
 fn bounce(model: &Model, state: &mut State, time: f64, pair: Pair, gap: &Gap) -> Result<(), Fault> {
     note_lossy(model, state, time, &[pair]);
-    let changes = exchange(model, state, time, pair, gap);
-    let start = |(body, change): (u32, DVec3)| From {
+    let impulse = exchange(model, state, time, pair, gap);
+    let start = |body: u32, impulse: f64| Start {
         body,
         x: state.position(body, time),
-        v: state.velocity(body, time) + change,
+        v: state.velocity(body, time) + velocity_change(model, body, impulse, gap.normal),
     };
-    match changes {
-        (first, None) => {
-            let first = start(first);
-            restart(model, state, time, &[first])
-        }
-        (first, Some(second)) => {
-            let both = [start(first), start(second)];
-            restart(model, state, time, &both)
+    let first = start(pair.first(), -impulse);
+    match pair.second() {
+        None => restart(model, state, time, &[first]),
+        Some(second) => {
+            let second = start(second, impulse);
+            restart(model, state, time, &[first, second])
         }
     }
-}
-
-/// Books and lists an impact of two bodies by Newton's law, v_n' = −e v_n. Gives the changes of their
-/// velocities, of the second one if it is dynamic.
-pub(super) fn exchange(
-    model: &Model,
-    state: &mut State,
-    time: f64,
-    pair: Pair,
-    gap: &Gap,
-) -> ((u32, DVec3), Option<(u32, DVec3)>) {
-    let Blow { impulse, parting, loss } =
-        blow(moved_mass(model, pair), restitution_of(model, pair), -gap.rate);
-    state.account.impact_losses.add(loss);
-    if pair.other().is_none() {
-        state.account.impulses.add(-impulse * gap.normal);
-    }
-    state.group += 1;
-    let event = Event {
-        impulse,
-        vn_before: gap.rate,
-        vn_after: parting,
-        group: state.group,
-        ..contact_event(time, EventKind::Impact, pair, gap)
-    };
-    record(state, in_id_order(model, event));
-    let change = |body: u32, impulse: f64| (body, impulse / model.movers[body as usize].mass * gap.normal);
-    (change(pair.a, -impulse), pair.other().map(|other| change(other, impulse)))
-}
-
-/// An event of two bodies that exchanges no impulse, not yet numbered or in the order of their ids.
-pub(super) fn contact_event(time: f64, kind: EventKind, pair: Pair, gap: &Gap) -> Event {
-    let (a, b) = pair.refs();
-    Event { b: Some(b), normal: gap.normal, ..Event::of_one(time, kind, a, gap.point) }
 }
 
 /// Lists what a group exchanged, one row for each contact.
@@ -153,21 +116,23 @@ fn list(model: &Model, state: &mut State, time: f64, group: &Group, kind: EventK
 fn finish(model: &Model, state: &mut State, time: f64, mut group: Group) -> Result<(), Fault> {
     let before: Vec<DVec3> = group.bodies.ids.iter().map(|body| state.velocity(*body, time)).collect();
     let settling = settle(model, &mut group);
-    let mut changed: Vec<bool> = before.iter().zip(&group.bodies.v).map(|(old, new)| old != new).collect();
-    for (k, member) in group.members.iter().enumerate() {
-        if member.pair.other().is_none() {
-            state.account.impulses.add(-member.impulse * member.link.towards);
+    book(state, &group, &before);
+    let changed = changed(&group, &before, &settling);
+    keep_contacts(model, state, &group, &settling);
+    restart(model, state, time, &starts_of(&group, &changed))?;
+    // What neither needed an impulse nor lasts.
+    for member in &group.members {
+        if !changed[member.link.a] && !member.link.b.is_some_and(|b| changed[b]) {
+            predict_pair(model, state, member.pair, a_little_after(time), time);
         }
-        let made = settling.iter().find(|settling| settling.member == k);
-        let is_new = made.is_some_and(|made| made.settles_at.is_some());
-        if is_new || (member.is_lasting && made.is_none()) {
-            [Some(member.link.a), member.link.b].into_iter().flatten().for_each(|body| changed[body] = true);
-        }
-        match made {
-            Some(made) => make(state, member, made),
-            None if member.is_lasting => part(model, state, member.pair, time),
-            None => {}
-        }
+    }
+    Ok(())
+}
+
+/// Momentum that static bodies gave or took, and energy lost.
+fn book(state: &mut State, group: &Group, before: &[DVec3]) {
+    for member in group.members.iter().filter(|member| member.pair.b.is_static()) {
+        state.account.impulses.add(-member.impulse * member.link.towards);
     }
     state.account.impulses.add(group.seized);
     for (k, before) in before.iter().enumerate() {
@@ -176,32 +141,51 @@ fn finish(model: &Model, state: &mut State, time: f64, mut group: Group) -> Resu
         let loss = 0.5 * (*before - after).dot(*before + after) / group.bodies.inverse_mass[k];
         state.account.impact_losses.add(loss);
     }
-    let unmoved: Vec<Pair> = group
-        .members
-        .iter()
-        .filter(|member| !changed[member.link.a] && !member.link.b.is_some_and(|b| changed[b]))
-        .map(|member| member.pair)
-        .collect();
-    let bodies = group.bodies;
-    let starts: Vec<From> = (0..bodies.ids.len())
-        .filter(|k| changed[*k])
-        .map(|k| From { body: bodies.ids[k], x: bodies.x[k], v: bodies.v[k] })
-        .collect();
-    restart(model, state, time, &starts)?;
-    // What neither needed an impulse nor lasts.
-    for pair in unmoved {
-        look_again(model, state, pair, a_little_after(time), time);
+}
+
+/// Which bodies of a group go on otherwise than before: by velocity, or by a contact that begins or ends.
+fn changed(group: &Group, before: &[DVec3], settling: &[Settling]) -> Vec<bool> {
+    let mut changed: Vec<bool> = before.iter().zip(&group.bodies.v).map(|(old, new)| old != new).collect();
+    for (k, member) in group.members.iter().enumerate() {
+        let made = made_of(settling, k);
+        let is_new = made.is_some_and(|made| made.settles_at.is_some());
+        if is_new || (member.is_lasting && made.is_none()) {
+            [Some(member.link.a), member.link.b].into_iter().flatten().for_each(|body| changed[body] = true);
+        }
     }
-    Ok(())
+    changed
+}
+
+/// What lasts of a contact of a group.
+fn made_of(settling: &[Settling], member: usize) -> Option<&Settling> {
+    settling.iter().find(|settling| settling.member == member)
+}
+
+/// Enters the contacts that begin to last, and ends those that last no more.
+fn keep_contacts(model: &Model, state: &mut State, group: &Group, settling: &[Settling]) {
+    for (k, member) in group.members.iter().enumerate() {
+        match made_of(settling, k) {
+            Some(made) => make(state, member, made),
+            None if member.is_lasting => part(model, state, member.pair, group.time),
+            None => {}
+        }
+    }
+}
+
+/// The bodies of a group that are to go on anew.
+fn starts_of(group: &Group, changed: &[bool]) -> Vec<Start> {
+    let bodies = &group.bodies;
+    let start = |k: usize| Start { body: bodies.ids[k], x: bodies.x[k], v: bodies.v[k] };
+    (0..bodies.ids.len()).filter(|k| changed[*k]).map(start).collect()
 }
 
 /// Enters a lasting contact with both bodies, or what is new about an old one.
 fn make(state: &mut State, member: &Member, settling: &Settling) {
     let Some(settles_at) = settling.settles_at else { return };
-    for (body, partner) in member.pair.ends() {
+    for (body, other) in member.pair.ends() {
         let contacts = &mut state.contacts[body as usize];
-        contacts.retain(|contact| contact.partner != partner);
-        contacts.push(Contact { partner, surface: member.surface, settles_at: Some(settles_at) });
+        contacts.retain(|contact| contact.other != other);
+        contacts.push(Contact { other, surface: member.surface, settles_at: Some(settles_at) });
     }
 }
 
@@ -218,7 +202,7 @@ enum Cascading {
 /// Whether the next lossy impact of a pair may be one too many.
 fn is_in_cascade(model: &Model, state: &State, pair: Pair, time: f64) -> bool {
     let last = model.params.collapse_count - 1.0;
-    pair.bodies().any(|body| {
+    pair.dynamic().any(|body| {
         let cascade = &state.cascades[body as usize];
         f64::from(cascade.length) >= last && time - cascade.last_impact < model.params.contact_duration
     })
@@ -228,8 +212,7 @@ fn is_in_cascade(model: &Model, state: &State, pair: Pair, time: f64) -> bool {
 /// and a lone body comes to rest on what is fixed.
 fn note_lossy(model: &Model, state: &mut State, time: f64, pairs: &[Pair]) -> Cascading {
     let lossy = pairs.iter().filter(|pair| restitution_of(model, **pair) < 1.0);
-    let mut bodies: Vec<u32> =
-        lossy.filter_map(|pair| pair.other().map(|other| [pair.a, other])).flatten().collect();
+    let mut bodies: Vec<u32> = lossy.filter(|pair| !pair.b.is_static()).flat_map(Pair::dynamic).collect();
     // A group is one impact to each of its bodies.
     bodies.sort_unstable();
     bodies.dedup();

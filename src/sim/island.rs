@@ -1,30 +1,21 @@
 //! Islands: dynamic bodies connected by lasting contacts, which move together. A body that touches static
 //! bodies only is an island of its own.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use glam::DVec3;
 
 use super::constraint::{Link, enter_none, largest_push, stay_on};
-use super::contact::{Bodies, Pair, Partner, Surface, surface_of};
-use super::engine::{fault, record_contact};
+use super::event::EventKind;
+use super::geometry::{BodiesAt, surface_of};
+use super::ledger::record_contact;
 use super::model::Model;
-use super::motion::{
-    SegmentError, Step, applied_force, begin_segment, check, coupled_step, place, step_hint, subject_at,
-};
-use super::neighbours::predict_all;
-use super::predict::PRESSURE_ROUNDING;
+use super::motion::{SegmentError, Step, applied_force, check, coupled_step, place, step_hint, subject_at};
+use super::pair::Pair;
 use super::segment::Segment;
+use super::shape::Surface;
 use super::state::State;
-use super::{EventKind, Fault};
-
-/// Where a body goes on from.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct From {
-    pub body: u32,
-    pub x: DVec3,
-    pub v: DVec3,
-}
+use super::tolerance::{PRESSURE_ROUNDING, PRESSURE_SAMPLES};
 
 /// Bodies of one island at one time, in the order of their indices.
 #[derive(Clone, Debug, Default)]
@@ -42,7 +33,7 @@ pub(super) fn connected(state: &State, bodies: impl IntoIterator<Item = u32>) ->
     let mut found: BTreeSet<u32> = waiting.iter().copied().collect();
     while let Some(body) = waiting.pop() {
         for contact in &state.contacts[body as usize] {
-            if let Partner::Dynamic(other) = contact.partner
+            if let Some(other) = contact.other.dynamic()
                 && found.insert(other)
             {
                 waiting.push(other);
@@ -70,7 +61,7 @@ impl Island {
     /// The island of some bodies, each where `from` says.
     pub fn new(model: &Model, state: &State, ids: Vec<u32>, from: impl Fn(u32) -> (DVec3, DVec3)) -> Self {
         let (x, v): (Vec<_>, Vec<_>) = ids.iter().map(|body| from(*body)).unzip();
-        let inverse_mass = ids.iter().map(|body| 1.0 / model.movers[*body as usize].mass).collect();
+        let inverse_mass = ids.iter().map(|body| model.dynamic(*body).inverse_mass()).collect();
         let contacts = contacts_of(state, &ids);
         Self { ids, x, v, contacts, inverse_mass }
     }
@@ -112,8 +103,8 @@ fn contacts_of(state: &State, ids: &[u32]) -> Vec<(Pair, Surface)> {
     let mut contacts = Vec::new();
     for body in ids {
         for contact in &state.contacts[*body as usize] {
-            let pair = Pair::new(*body, contact.partner);
-            if pair.a == *body {
+            let pair = Pair::of(*body, contact.other);
+            if pair.first() == *body {
                 contacts.push((pair, contact.surface));
             }
         }
@@ -122,7 +113,7 @@ fn contacts_of(state: &State, ids: &[u32]) -> Vec<(Pair, Surface)> {
 }
 
 fn links_of(model: &Model, ids: &[u32], contacts: &[(Pair, Surface)], x: &[DVec3], v: &[DVec3]) -> Vec<Link> {
-    let bodies = Bodies { ids, x, v };
+    let bodies = BodiesAt { ids, x, v };
     contacts.iter().map(|(pair, surface)| bodies.link(model, *pair, *surface)).collect()
 }
 
@@ -146,8 +137,8 @@ pub(super) fn drop_unpressed(model: &Model, state: &mut State, island: &Island, 
     }
     for (body, x) in island.ids.iter().zip(&island.x) {
         for contact in &mut state.contacts[*body as usize] {
-            if let (Partner::Static(fixture), Surface::Round) = (contact.partner, contact.surface) {
-                contact.surface = surface_of(&model.fixtures[fixture as usize], *x);
+            if contact.other.is_static() && contact.surface == Surface::Round {
+                contact.surface = surface_of(model, contact.other, *x);
             }
         }
     }
@@ -156,10 +147,10 @@ pub(super) fn drop_unpressed(model: &Model, state: &mut State, island: &Island, 
 /// Ends a lasting contact, and says so.
 pub(super) fn part(model: &Model, state: &mut State, pair: Pair, time: f64) {
     let mut listed = false;
-    for (body, partner) in pair.ends() {
+    for (body, other) in pair.ends() {
         state.contacts[body as usize].retain(|contact| {
-            listed |= contact.partner == partner;
-            contact.partner != partner
+            listed |= contact.other == other;
+            contact.other != other
         });
     }
     if listed {
@@ -222,10 +213,6 @@ fn is_steady(model: &Model, island: &Island, links: &[Link], accelerations: &[DV
     model.is_ballistic() && links.iter().zip(&island.contacts).all(|(link, contact)| still(link, contact))
 }
 
-/// Parts of an integrated segment at whose ends the pressure is looked at. A step of the integrator is short
-/// against the time in which a smooth force turns round twice.
-const PRESSURE_SAMPLES: u32 = 8;
-
 /// First time on their present segments at which some contacts of an island are no longer pressed, and
 /// which. On parabolas that never happens.
 pub(super) fn first_parting(model: &Model, state: &State, ids: &[u32]) -> Option<(f64, Vec<Pair>)> {
@@ -248,60 +235,6 @@ pub(super) fn first_parting(model: &Model, state: &State, ids: &[u32]) -> Option
         low = high;
     }
     None
-}
-
-/// Lets bodies go on, with all that they are in contact with: contacts that no longer hold are dropped,
-/// segments begin, and everything about them is predicted. All segments must stand before anything is
-/// predicted between them.
-pub(super) fn restart(model: &Model, state: &mut State, time: f64, starts: &[From]) -> Result<(), Fault> {
-    let is_free = |state: &State, body: u32| state.contacts[body as usize].is_empty();
-    if starts.iter().all(|start| is_free(state, start.body)) {
-        for start in starts {
-            begin_free(model, state, time, start)?;
-        }
-        starts.iter().for_each(|start| predict_all(model, state, start.body, time));
-        return Ok(());
-    }
-    let (free, held): (Vec<From>, Vec<From>) = starts.iter().partition(|start| is_free(state, start.body));
-    for start in &free {
-        begin_free(model, state, time, start)?;
-    }
-    let mut bodies = begin_islands(model, state, time, &held)?;
-    bodies.extend(free.iter().map(|start| start.body));
-    bodies.sort_unstable();
-    bodies.into_iter().for_each(|body| predict_all(model, state, body, time));
-    Ok(())
-}
-
-/// Begins segments for bodies and all that they are in contact with; gives them all.
-fn begin_islands(model: &Model, state: &mut State, time: f64, starts: &[From]) -> Result<Vec<u32>, Fault> {
-    let bodies = connected(state, starts.iter().map(|start| start.body));
-    let given: BTreeMap<u32, &From> = starts.iter().map(|start| (start.body, start)).collect();
-    let place_of = |body: &u32| match given.get(body) {
-        Some(start) => (start.x, start.v),
-        None => (state.position(*body, time), state.velocity(*body, time)),
-    };
-    let from: Vec<(DVec3, DVec3)> = bodies.iter().map(place_of).collect();
-    let of = |body: u32| bodies.binary_search(&body).map_or((DVec3::ZERO, DVec3::ZERO), |k| from[k]);
-    for ids in islands(state, &bodies) {
-        drop_unpressed(model, state, &Island::new(model, state, ids, of), time);
-    }
-    // What is left may have fallen apart.
-    for ids in islands(state, &bodies) {
-        let mut island = Island::new(model, state, ids, of);
-        if island.contacts.is_empty() {
-            begin_free(model, state, time, &From { body: island.ids[0], x: island.x[0], v: island.v[0] })?;
-        } else {
-            begin_island(model, state, &mut island, time)
-                .map_err(|(body, error)| fault(model, body, time, error))?;
-        }
-    }
-    Ok(bodies)
-}
-
-fn begin_free(model: &Model, state: &mut State, time: f64, start: &From) -> Result<(), Fault> {
-    begin_segment(model, state, start.body, time, start.x, start.v)
-        .map_err(|error| fault(model, start.body, time, error))
 }
 
 /// The earliest representable time in low..=high at which `holds` no longer holds.

@@ -1,119 +1,51 @@
-//! The events a simulation reports: what happened, when, where, to whom, how hard.
+//! The ledger: events on their way out, numbered, counted, and with their bodies in UserID order.
 
-use glam::DVec3;
+use super::body::BodyId;
+use super::event::{BodyRef, Event, EventKind};
+use super::geometry::gap_of;
+use super::model::Model;
+use super::pair::Pair;
+use super::predict::Gap;
+use super::state::State;
 
-/// A body of a running simulation. Dynamic and static bodies are numbered apart, both in UserID order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum BodyRef {
-    Dynamic(u32),
-    Static(u32),
+/// Puts an event into the outbox under the next sequence number.
+pub(super) fn record(state: &mut State, mut event: Event) {
+    state.sequence += 1;
+    event.seq = state.sequence;
+    debug_assert_eq!(
+        EventKind::ALL[event.kind as usize],
+        event.kind,
+        "counters are in the order of the kinds"
+    );
+    state.counters.events[event.kind as usize] += 1;
+    state.outbox.push_back(event);
 }
 
-impl BodyRef {
-    /// No body: what an edit of a force is recorded with.
-    pub const NONE: Self = Self::Dynamic(u32::MAX);
+/// An event of two bodies that exchanges no impulse.
+pub(super) fn record_contact(model: &Model, state: &mut State, time: f64, kind: EventKind, pair: Pair) {
+    let gap = gap_of(model, state, pair, time);
+    let event = contact_event(time, kind, pair, &gap);
+    record(state, in_id_order(model, event));
 }
 
-/// What kind of event a ledger row is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum EventKind {
-    /// Two surfaces meet and part again.
-    Impact,
-    /// A body's bounces have ended: it lies still, or goes on as a slide.
-    Rest,
-    /// A body in contact starts to move along the surface.
-    Slide,
-    /// A body in contact leaves the surface: it was lifted, or the face ended.
-    LiftOff,
-    /// A body passed a point attractor within the core radius.
-    SingularPass,
-    /// An impact in an inelastic collapse: one of more than anyone could list, at one instant or closely after
-    /// each other. What is left of them is taken plastically, and the bodies do not bounce off each other until
-    /// it has been quiet for a while.
-    Collapse,
-    /// The scene was edited while it ran.
-    Edit,
+/// An event of two bodies that exchanges no impulse, not yet numbered or in the order of their ids.
+pub(super) fn contact_event(time: f64, kind: EventKind, pair: Pair, gap: &Gap) -> Event {
+    let (a, b) = pair.refs();
+    Event { b: Some(b), normal: gap.normal, ..Event::of_one(time, kind, a, gap.point) }
 }
 
-impl EventKind {
-    pub const ALL: [Self; 7] = [
-        Self::Impact,
-        Self::Rest,
-        Self::Slide,
-        Self::LiftOff,
-        Self::SingularPass,
-        Self::Collapse,
-        Self::Edit,
-    ];
-
-    /// The name used in files: `impact`, `rest`, `slide`, `lift_off`, `singular_pass`, `collapse`, `edit`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Impact => "impact",
-            Self::Rest => "rest",
-            Self::Slide => "slide",
-            Self::LiftOff => "lift_off",
-            Self::SingularPass => "singular_pass",
-            Self::Collapse => "collapse",
-            Self::Edit => "edit",
-        }
+/// The same event with the body of the smaller UserID first and the normal from it to the other.
+pub(super) fn in_id_order(model: &Model, mut event: Event) -> Event {
+    if let Some(b) = event.b
+        && rank(model, b) < rank(model, event.a)
+    {
+        (event.a, event.b, event.normal) = (b, Some(event.a), -event.normal);
     }
-
-    /// One line for the help.
-    pub fn meaning(self) -> &'static str {
-        match self {
-            Self::Impact => "two surfaces met and parted again",
-            Self::Rest => "the bounces of a body ended; it lies or slides",
-            Self::Slide => "a body in contact began to move along the surface",
-            Self::LiftOff => "a body in contact left the surface",
-            Self::SingularPass => "a body passed a point attractor within the core radius",
-            Self::Collapse => "inelastic collapse: impacts without end, taken plastically until it is quiet",
-            Self::Edit => "the scene was edited while it ran",
-        }
-    }
+    event
 }
 
-/// One row of the ledger. Bit-identical for every way of sampling the same scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Event {
-    /// 1 for the first event of a run.
-    pub seq: u64,
-    /// Model time, s.
-    pub time: f64,
-    pub kind: EventKind,
-    /// The body with the smaller UserID (for one body alone: that body).
-    pub a: BodyRef,
-    /// `None` for events of one body alone.
-    pub b: Option<BodyRef>,
-    /// A point on the surface where they touch, m.
-    pub point: DVec3,
-    /// Unit vector from `a` to `b` at the contact; zero for events of one body alone.
-    pub normal: DVec3,
-    /// N·s, ≥ 0.
-    pub impulse: f64,
-    /// Normal component of the velocity of `b` relative to `a` along `normal`: negative when closing, m/s.
-    pub vn_before: f64,
-    pub vn_after: f64,
-    /// Number of the impact group, from 1: the contacts of bodies that touch are resolved together and share
-    /// it, one row each. 0 for events that resolve no impact.
-    pub group: u64,
-}
-
-impl Event {
-    /// An event of one body that exchanges no impulse, not yet numbered.
-    pub(super) fn of_one(time: f64, kind: EventKind, body: BodyRef, point: DVec3) -> Self {
-        Self {
-            seq: 0,
-            time,
-            kind,
-            a: body,
-            b: None,
-            point,
-            normal: DVec3::ZERO,
-            impulse: 0.0,
-            vn_before: 0.0,
-            vn_after: 0.0,
-            group: 0,
-        }
-    }
+/// UserID order.
+pub(super) fn rank(model: &Model, body: BodyRef) -> (i64, u32, BodyRef) {
+    let identity = &model.body(BodyId::from_ref(body)).identity;
+    (identity.id, identity.order, body)
 }

@@ -1,8 +1,4 @@
-//! How a simulation steps, and the one place where the methods part.
-
-use super::model::Model;
-use super::state::State;
-use super::{Fault, engine, stepping};
+//! The ways in which a simulation can step.
 
 /// A way to go through time. All share shapes, gap functions, the law of impact, the ledger and the books.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -49,29 +45,5 @@ impl Method {
     /// Whether the result depends on how time is divided into Δt.
     pub fn depends_on_dt(self) -> bool {
         self != Self::Exact
-    }
-}
-
-/// Tells that time is to go on from `state.now` to `state.until`.
-pub(super) fn plan(model: &Model, state: &mut State) {
-    match model.method {
-        Method::Exact => {}
-        Method::Thesis | Method::Fixed => stepping::plan(state),
-    }
-}
-
-/// Goes on by one prediction or one collision, not beyond `state.until`; false when nothing is left.
-pub(super) fn advance(model: &Model, state: &mut State) -> Result<bool, Fault> {
-    match model.method {
-        Method::Exact => engine::advance(model, state),
-        Method::Thesis | Method::Fixed => stepping::advance(model, state),
-    }
-}
-
-/// Lets all bodies go on from where their segments begin, at `state.now`: at the start and after an edit.
-pub(super) fn begin_all(model: &Model, state: &mut State) -> Result<(), Fault> {
-    match model.method {
-        Method::Exact => engine::begin_all(model, state),
-        Method::Thesis | Method::Fixed => stepping::begin_all(model, state),
     }
 }

@@ -3,48 +3,64 @@
 
 // What users see.
 mod edit;
+mod event;
+mod fault;
 mod force;
-mod ledger;
 mod method;
 mod report;
 mod simulation;
 
 // From scene to model.
+mod body;
 mod compile;
 mod model;
 mod plan;
+mod shape;
 
 // The step, from the top down.
 mod change;
 mod constraint;
-mod contact;
+mod contact_ends;
+mod drive;
 mod engine;
+mod exchange;
+mod geometry;
 mod group;
 mod impact;
 mod island;
-mod lasting;
+mod ledger;
 mod motion;
 mod neighbours;
 mod predict;
-mod queue;
+mod restart;
 mod restitution;
 mod roots;
-mod segment;
-mod state;
+mod settle;
 mod stepping;
 mod tiles;
+mod tolerance;
+
+// What moves.
+mod account;
+mod contact;
+mod open_step;
+mod pair;
+mod queue;
+mod segment;
+mod state;
 
 // What looks on.
-mod account;
+mod books;
 mod candidates;
 mod hash;
 mod monitor;
 
 pub use candidates::CandidateSet;
 pub use edit::{EditRefused, SimEdit};
+pub use event::{BodyRef, Event, EventKind};
+pub use fault::Fault;
 pub use force::{Force, Subject};
-pub use ledger::{BodyRef, Event, EventKind};
 pub use method::Method;
 pub use report::{BodyState, ContactState, Counters, Energy, Momentum, Plan, Tiling};
-pub use simulation::{CompileError, Fault, Progress, Simulation, Snapshot};
+pub use simulation::{CompileError, Progress, Simulation, Snapshot};
 pub use stepping::StepLimits;

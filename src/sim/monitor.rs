@@ -2,18 +2,19 @@
 
 use glam::DVec3;
 
-use super::Tiling;
-use super::account::present;
-use super::model::{Identity, Model};
-use super::predict::{sphere_fixture_gap, sphere_sphere_gap};
+use super::body::{BodyId, Identity};
+use super::geometry::gap_of;
+use super::model::Model;
+use super::pair::Pair;
+use super::report::Tiling;
 use super::state::State;
 use crate::scene::{Diagnostic, Severity};
 
 /// Deepest overlap at `time` of any two bodies that share a tile, m, ≥ 0.
 pub(super) fn worst_overlap(model: &Model, state: &State, time: f64) -> f64 {
     let mut worst: f64 = 0.0;
-    for_each_neighbour(model, state, |body, other| {
-        worst = worst.max(-distance(model, state, body, other, time));
+    for_each_neighbour(model, state, |pair| {
+        worst = worst.max(-gap_of(model, state, pair, time).distance);
         true
     });
     worst
@@ -30,14 +31,15 @@ pub(super) fn start_warnings(model: &Model, state: &State) -> Result<Vec<Diagnos
 
 fn overlap_warnings(model: &Model, state: &State) -> Result<Vec<Diagnostic>, Diagnostic> {
     let mut warnings = Vec::new();
-    let most = MOST_OVERLAPS.max(MOST_OVERLAPS_PER_BODY * (model.movers.len() + model.fixtures.len()));
+    let bodies = model.bodies.dynamic().len() + model.bodies.static_len();
+    let most = MOST_OVERLAPS.max(MOST_OVERLAPS_PER_BODY * bodies);
     let mut count = 0;
-    for_each_neighbour(model, state, |body, other| {
-        let depth = -distance(model, state, body, other, state.now);
+    for_each_neighbour(model, state, |pair| {
+        let depth = -gap_of(model, state, pair, state.now).distance;
         if depth > model.params.contact_distance {
             count += 1;
             if count <= MOST_WARNINGS {
-                let (a, b) = (&model.movers[body as usize].identity, other.identity(model));
+                let (a, b) = (&model.body(pair.a).identity, &model.body(pair.b).identity);
                 warnings.push(warning(
                     a,
                     format!("bodies {} and {} overlap by {} m at the start", a.name, b.name, meters(depth)),
@@ -69,9 +71,9 @@ fn outside_warnings(model: &Model, state: &State) -> Vec<Diagnostic> {
         let at = state.position(*body, state.now);
         at.cmplt(DVec3::ZERO).any() || at.cmpgt(size).any()
     };
-    let mut outside = present(model).filter(is_outside);
+    let mut outside = model.present().filter(is_outside);
     let first = outside.by_ref().take(MOST_WARNINGS).map(|body| {
-        let identity = &model.movers[body as usize].identity;
+        let identity = &model.dynamic(body).identity;
         let message = format!("body {} starts outside the map", identity.name);
         warning(identity, message, "move it inside or enlarge the map; it is simulated all the same")
     });
@@ -114,30 +116,6 @@ fn about_all(message: String, hint: &str) -> Diagnostic {
     }
 }
 
-/// The other one of a pair.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Other {
-    Moving(u32),
-    Fixed(u32),
-}
-
-impl Other {
-    fn identity(self, model: &Model) -> &Identity {
-        match self {
-            Self::Moving(index) => &model.movers[index as usize].identity,
-            Self::Fixed(index) => &model.fixtures[index as usize].identity,
-        }
-    }
-}
-
-fn distance(model: &Model, state: &State, body: u32, other: Other, time: f64) -> f64 {
-    let mover = state.mover(model, body);
-    match other {
-        Other::Moving(index) => sphere_sphere_gap(mover, state.mover(model, index), time).distance,
-        Other::Fixed(index) => sphere_fixture_gap(mover, &model.fixtures[index as usize], time).distance,
-    }
-}
-
 /// Overlaps, and bodies outside the map, listed at most: bodies piled on one point would give as many as there
 /// are pairs.
 const MOST_WARNINGS: usize = 200;
@@ -151,21 +129,21 @@ const MOST_OVERLAPS_PER_BODY: usize = 50;
 const MOST_OVERLAPS: usize = 100_000;
 
 /// Every pair that shares a tile, once, in order, until `visit` says that it has seen enough.
-fn for_each_neighbour(model: &Model, state: &State, mut visit: impl FnMut(u32, Other) -> bool) {
+fn for_each_neighbour(model: &Model, state: &State, mut visit: impl FnMut(Pair) -> bool) {
     let mut others = Vec::new();
-    for body in present(model) {
+    for body in model.present() {
         others.clear();
         let range = state.registered[body as usize];
-        state.moving.visit(&model.grid, range, None, |other| {
+        state.dynamic_tiles.visit(&model.grid, range, None, |other| {
             if other > body {
-                others.push(Other::Moving(other));
+                others.push(BodyId::of_dynamic(other));
             }
         });
-        model.static_tiles.visit(&model.grid, range, None, |other| others.push(Other::Fixed(other)));
-        others.extend(model.static_tiles.large().iter().map(|other| Other::Fixed(*other)));
+        model.static_tiles.visit(&model.grid, range, None, |other| others.push(BodyId::of_static(other)));
+        others.extend(model.static_tiles.large().iter().map(|other| BodyId::of_static(*other)));
         others.sort_unstable();
         others.dedup();
-        if !others.iter().all(|other| visit(body, *other)) {
+        if !others.iter().all(|other| visit(Pair::of(body, *other))) {
             return;
         }
     }
@@ -174,21 +152,21 @@ fn for_each_neighbour(model: &Model, state: &State, mut visit: impl FnMut(u32, O
 /// The occupied tiles, at most `limit` of them, those with dynamic bodies first.
 pub(super) fn tiling(model: &Model, state: &State, limit: usize) -> Tiling {
     let grid = &model.grid;
-    let mut tiles = state.moving.occupied(grid);
-    let with_moving = tiles.len();
-    let only_fixed: Vec<[u32; 3]> = (model.static_tiles.occupied().iter().copied())
-        .filter(|tile| tiles[..with_moving].binary_search(tile).is_err())
+    let mut tiles = state.dynamic_tiles.occupied(grid);
+    let with_dynamic = tiles.len();
+    let only_static: Vec<[u32; 3]> = (model.static_tiles.occupied().iter().copied())
+        .filter(|tile| tiles[..with_dynamic].binary_search(tile).is_err())
         .take(limit + 1)
         .collect();
-    tiles.extend(only_fixed);
+    tiles.extend(only_static);
     let truncated = tiles.len() > limit;
     tiles.truncate(limit);
     tiles.sort_unstable();
     let occupied = tiles
         .into_iter()
         .map(|tile| {
-            let fixed = model.static_tiles.bodies(grid, tile).len() as u32;
-            (tile, fixed, state.moving.bodies(grid, tile).len() as u32)
+            let statics = model.static_tiles.bodies(grid, tile).len() as u32;
+            (tile, statics, state.dynamic_tiles.bodies(grid, tile).len() as u32)
         })
         .collect();
     Tiling { tile_size: grid.tile_size, tiles: grid.counts, occupied, truncated }

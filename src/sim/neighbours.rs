@@ -2,20 +2,24 @@
 
 use glam::DVec3;
 
-use super::contact::Partner;
+use super::body::BodyId;
+use super::contact_ends::predict_contact_events;
+use super::force::Law;
+use super::geometry::{ball, target};
 use super::model::Model;
-use super::predict;
+use super::pair::Pair;
+use super::predict::{self, first_beyond};
 use super::queue::Kind;
 use super::roots::first_root;
-use super::segment::Path;
 use super::state::{Scratch, State};
 use super::tiles::{TileRange, for_each_brick};
+use super::tolerance::{BOX_MARGIN, BOX_ROUNDING, LATER, LATER_ROUNDING};
 
 /// How much larger than the body its registered box is, m: more than root finding can be off, and than bodies
 /// are apart that touch.
 fn margin(model: &Model, radius: f64, position: DVec3) -> f64 {
-    let rounding = 1e-12 * model.grid.tile_size.max_element().max(position.abs().max_element());
-    1e-6 * radius + rounding + model.params.contact_distance
+    let rounding = BOX_ROUNDING * model.grid.tile_size.max_element().max(position.abs().max_element());
+    BOX_MARGIN * radius + rounding + model.params.contact_distance
 }
 
 /// Tiles of a body's box, rounded outwards.
@@ -27,20 +31,20 @@ fn range_at(model: &Model, radius: f64, position: DVec3) -> TileRange {
 /// Enters a body that is in no tile yet.
 pub(super) fn enter(model: &Model, state: &mut State, body: u32, time: f64) {
     let position = state.position(body, time);
-    let range = range_at(model, model.movers[body as usize].radius, position);
+    let range = range_at(model, model.radius(body), position);
     state.registered[body as usize] = range;
-    state.moving.insert(&model.grid, range, body);
+    state.dynamic_tiles.insert(&model.grid, range, body);
 }
 
 /// Makes all predictions about a body that has just begun a segment at `time`.
 pub(super) fn predict_all(model: &Model, state: &mut State, body: u32, time: f64) {
     let end = state.segments[body as usize].end;
     if end.is_finite() {
-        state.predict_one(end, Kind::SegmentEnd, body, 0);
+        state.predict_alone(end, Kind::SegmentEnd, body, BodyId::NONE);
     }
     predict_leaving(model, state, body, time);
     predict_core_passes(model, state, body, time);
-    super::lasting::predict_contact_events(model, state, body, time);
+    predict_contact_events(model, state, body, time);
     let range = state.registered[body as usize];
     predict_neighbours(model, state, body, range, None, time);
 }
@@ -48,9 +52,9 @@ pub(super) fn predict_all(model: &Model, state: &mut State, body: u32, time: f64
 /// Moves a body to the tiles it is in now and predicts against the bodies it finds there.
 pub(super) fn reregister(model: &Model, state: &mut State, body: u32, time: f64) {
     let old = state.registered[body as usize];
-    let new = range_at(model, model.movers[body as usize].radius, state.position(body, time));
+    let new = range_at(model, model.radius(body), state.position(body, time));
     if new != old {
-        state.moving.change(&model.grid, old, new, body);
+        state.dynamic_tiles.change(&model.grid, old, new, body);
         state.registered[body as usize] = new;
         state.counters.tile_crossings += 1;
         predict_neighbours(model, state, body, new, Some(old), time);
@@ -64,7 +68,7 @@ fn predict_leaving(model: &Model, state: &mut State, body: u32, time: f64) {
     if low == DVec3::NEG_INFINITY && high == DVec3::INFINITY {
         return;
     }
-    let radius = model.movers[body as usize].radius;
+    let radius = model.radius(body);
     let path = state.path(body);
     let (x, v, a) = (path.position(time), path.velocity(time), path.segment.a);
     let margin = margin(model, radius, x);
@@ -91,50 +95,18 @@ fn predict_leaving(model: &Model, state: &mut State, body: u32, time: f64) {
         }
     }
     if leaving <= path.segment.end && leaving.is_finite() {
-        state.predict_one(leaving, Kind::LeaveTiles, body, 0);
-    }
-}
-
-/// First time ≥ `from` at which direction·x reaches `limit`, or comes within `early` of it on a path that
-/// is not a parabola.
-pub(super) fn first_beyond(
-    path: Path<'_>,
-    direction: DVec3,
-    limit: f64,
-    early: f64,
-    from: f64,
-) -> Option<f64> {
-    let segment = path.segment;
-    let mut time = from;
-    loop {
-        let distance = limit - direction.dot(path.position(time));
-        let rate = -direction.dot(path.velocity(time));
-        if path.series.is_none() {
-            return first_root(distance, rate, -direction.dot(segment.a)).map(|tau| time + tau);
-        }
-        if distance <= early {
-            return Some(time);
-        }
-        // |ẍ| ≤ A: the limit is not reached before distance + rate·δ − ½Aδ² = 0.
-        let step = first_root(distance, rate, -segment.acceleration_bound)?;
-        if time + step > segment.end {
-            return None;
-        }
-        if time + step <= time {
-            return Some(time);
-        }
-        time += step;
+        state.predict_alone(leaving, Kind::LeaveTiles, body, BodyId::NONE);
     }
 }
 
 pub(super) fn predict_core_passes(model: &Model, state: &mut State, body: u32, time: f64) {
     for (index, force) in (0u32..).zip(&model.forces) {
-        let super::force::Law::Point { center, intensity } = force.law else { continue };
+        let Law::Point { center, intensity } = force.law else { continue };
         if intensity <= 0.0 {
             continue;
         }
         if let Some(pass) = predict::core_pass(state.path(body), center, model.params.core_radius, time) {
-            state.predict_one(pass.max(time), Kind::CorePass, body, index);
+            state.predict_alone(pass.max(time), Kind::CorePass, body, BodyId::of_static(index));
         }
     }
 }
@@ -150,16 +122,16 @@ fn predict_neighbours(
 ) {
     let mut scratch = std::mem::take(&mut state.scratch);
     collect(model, state, &mut scratch, body, range, known);
-    let mover = state.mover(model, body);
-    let looked_at = scratch.found_moving.len();
+    let from = ball(model, state, body);
+    let looked_at = scratch.found_dynamic.len();
     let near = model.params.contact_distance;
-    scratch.found_moving.retain(|other| !predict::surely_pass(mover, state.mover(model, *other), near));
-    state.counters.pair_tests += (looked_at - scratch.found_moving.len()) as u64;
-    for other in &scratch.found_moving {
-        predict_pair(model, state, body, *other, f64::NEG_INFINITY, time);
+    scratch.found_dynamic.retain(|other| !predict::surely_pass(from, ball(model, state, *other), near));
+    state.counters.pair_tests += (looked_at - scratch.found_dynamic.len()) as u64;
+    for other in &scratch.found_dynamic {
+        predict_pair(model, state, Pair::of(body, BodyId::of_dynamic(*other)), f64::NEG_INFINITY, time);
     }
-    for fixture in &scratch.found_fixed {
-        predict_fixture(model, state, body, *fixture, f64::NEG_INFINITY, time);
+    for other in &scratch.found_static {
+        predict_pair(model, state, Pair::of(body, BodyId::of_static(*other)), f64::NEG_INFINITY, time);
     }
     state.scratch = scratch;
 }
@@ -173,61 +145,69 @@ fn collect(
     range: TileRange,
     known: Option<TileRange>,
 ) {
-    scratch.begin(state.segments.len(), model.fixtures.len());
+    scratch.begin(state.segments.len(), model.bodies.static_len());
     let epoch = scratch.epoch;
-    scratch.seen_moving[body as usize] = epoch;
-    let Scratch { seen_moving, seen_fixed, found_moving, found_fixed, .. } = scratch;
-    let mut see_moving = |other: u32| {
+    scratch.seen_dynamic[body as usize] = epoch;
+    let Scratch { seen_dynamic, seen_static, found_dynamic, found_static, .. } = scratch;
+    let mut see_dynamic = |other: u32| {
         // With who is in the old tiles too, the next impact is predicted already.
         if known.is_some_and(|known| known.overlaps(&state.registered[other as usize])) {
             return;
         }
-        if std::mem::replace(&mut seen_moving[other as usize], epoch) != epoch {
-            found_moving.push(other);
+        if std::mem::replace(&mut seen_dynamic[other as usize], epoch) != epoch {
+            found_dynamic.push(other);
         }
     };
-    let mut see_fixed = |other: u32| {
-        if std::mem::replace(&mut seen_fixed[other as usize], epoch) != epoch {
-            found_fixed.push(other);
+    let mut see_static = |other: u32| {
+        if std::mem::replace(&mut seen_static[other as usize], epoch) != epoch {
+            found_static.push(other);
         }
     };
     for_each_brick(&model.grid, range, known, |brick, tiles| {
-        state.moving.visit_brick(brick, tiles, &mut see_moving);
-        model.static_tiles.visit_brick(brick, tiles, &mut see_fixed);
+        state.dynamic_tiles.visit_brick(brick, tiles, &mut see_dynamic);
+        model.static_tiles.visit_brick(brick, tiles, &mut see_static);
     });
     if known.is_none() {
-        scratch.found_fixed.extend(model.static_tiles.large());
+        scratch.found_static.extend(model.static_tiles.large());
     }
 }
 
 /// All others that lie in the tiles of a body, each once, in order.
-pub(super) fn near(model: &Model, state: &State, body: u32) -> Vec<Partner> {
-    let mut found: Vec<Partner> = Vec::new();
+pub(super) fn near(model: &Model, state: &State, body: u32) -> Vec<BodyId> {
+    let mut found: Vec<BodyId> = Vec::new();
     let range = state.registered[body as usize];
-    state.moving.visit(&model.grid, range, None, |other| found.push(Partner::Dynamic(other)));
-    model.static_tiles.visit(&model.grid, range, None, |other| found.push(Partner::Static(other)));
-    found.extend(model.static_tiles.large().iter().map(|other| Partner::Static(*other)));
+    state.dynamic_tiles.visit(&model.grid, range, None, |other| found.push(BodyId::of_dynamic(other)));
+    model.static_tiles.visit(&model.grid, range, None, |other| found.push(BodyId::of_static(other)));
+    found.extend(model.static_tiles.large().iter().map(|other| BodyId::of_static(*other)));
     found.sort_unstable();
     found.dedup();
-    found.retain(|partner| *partner != Partner::Dynamic(body));
+    found.retain(|other| *other != BodyId::of_dynamic(body));
     found
 }
 
-/// Predicts the next impact of two dynamic bodies that are not in lasting contact. `from` is −∞ but where an
-/// earlier search gave up.
-pub(super) fn predict_pair(model: &Model, state: &mut State, a: u32, b: u32, from: f64, time: f64) {
-    // The order of the two must not matter to the last bit.
-    let (a, b) = (a.min(b), a.max(b));
-    if !state.contacts[a as usize].is_empty() && state.is_in_contact(a, Partner::Dynamic(b)) {
+/// Predicts the next impact of two bodies that are not in lasting contact. `from` is −∞ but where an earlier
+/// search gave up.
+pub(super) fn predict_pair(model: &Model, state: &mut State, pair: Pair, from: f64, time: f64) {
+    let body = pair.first();
+    if !state.contacts[body as usize].is_empty() && state.contact(pair).is_some() {
         return;
     }
     state.counters.pair_tests += 1;
-    if lies_against(model, state, a, b, time) {
-        state.note_touching(a, b);
+    if let Some(other) = pair.second()
+        && lies_against(model, state, body, other, time)
+    {
+        state.note_touching(body, other);
     }
-    if let Some(impact) = predict::sphere_sphere(state.mover(model, a), state.mover(model, b), from) {
-        state.predict_pair(impact.max(time), Kind::Impact, a, b);
+    let impact = predict::first_contact(ball(model, state, body), target(model, state, pair.b), from);
+    if let Some(impact) = impact {
+        state.predict(impact.max(time), Kind::Impact, pair);
     }
+}
+
+/// Where to go on looking after a prediction that led to nothing: the same time would only give the same
+/// answer.
+pub(super) fn a_little_after(time: f64) -> f64 {
+    time + LATER.max(LATER_ROUNDING * time)
 }
 
 /// Whether two dynamic bodies touch to within the contact distance and will for a while: an impact on one
@@ -235,7 +215,7 @@ pub(super) fn predict_pair(model: &Model, state: &mut State, a: u32, b: u32, fro
 fn lies_against(model: &Model, state: &State, a: u32, b: u32, time: f64) -> bool {
     let params = &model.params;
     let apart = state.position(b, time) - state.position(a, time);
-    let reach = model.movers[a as usize].radius + model.movers[b as usize].radius + params.contact_distance;
+    let reach = model.radius(a) + model.radius(b) + params.contact_distance;
     if apart.length_squared() > reach * reach {
         return false;
     }
@@ -243,36 +223,17 @@ fn lies_against(model: &Model, state: &State, a: u32, b: u32, time: f64) -> bool
     rate.abs() * params.contact_duration <= params.contact_distance * apart.length()
 }
 
-/// Predicts the next impact of a dynamic body with a static one it is not in lasting contact with.
-pub(super) fn predict_fixture(
-    model: &Model,
-    state: &mut State,
-    body: u32,
-    fixture: u32,
-    from: f64,
-    time: f64,
-) {
-    if !state.contacts[body as usize].is_empty() && state.is_in_contact(body, Partner::Static(fixture)) {
-        return;
-    }
-    state.counters.pair_tests += 1;
-    let impact = predict::sphere_fixture(state.mover(model, body), &model.fixtures[fixture as usize], from);
-    if let Some(impact) = impact {
-        state.predict_one(impact.max(time), Kind::FixtureImpact, body, fixture);
-    }
-}
-
 impl Scratch {
-    fn begin(&mut self, moving: usize, fixed: usize) {
-        self.found_moving.clear();
-        self.found_fixed.clear();
+    fn begin(&mut self, dynamic: usize, statics: usize) {
+        self.found_dynamic.clear();
+        self.found_static.clear();
         self.epoch = self.epoch.wrapping_add(1);
         if self.epoch == 0 {
-            self.seen_moving.fill(0);
-            self.seen_fixed.fill(0);
+            self.seen_dynamic.fill(0);
+            self.seen_static.fill(0);
             self.epoch = 1;
         }
-        self.seen_moving.resize(moving, 0);
-        self.seen_fixed.resize(fixed, 0);
+        self.seen_dynamic.resize(dynamic, 0);
+        self.seen_static.resize(statics, 0);
     }
 }

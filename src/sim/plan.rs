@@ -1,28 +1,19 @@
 //! The plan: what a scene needs, so that nothing else is stored or computed.
 
+use std::collections::BTreeSet;
+
+use super::body::Body;
 use super::force::Law;
-use super::model::{FixtureShape, Model};
-use super::{Method, Plan};
+use super::method::Method;
+use super::model::Model;
+use super::report::Plan;
 
 pub(super) fn plan_of(model: &Model) -> Plan {
-    let movers: Vec<_> = model.movers.iter().filter(|mover| mover.present).collect();
-    let fixtures: Vec<_> = model.fixtures.iter().filter(|fixture| fixture.present).collect();
-    let plates = fixtures.iter().any(|fixture| matches!(fixture.shape, FixtureShape::Plate(_)));
-    let spheres = fixtures.iter().any(|fixture| matches!(fixture.shape, FixtureShape::Sphere { .. }));
+    let present = || model.bodies.iter().map(|(_, body)| body).filter(|body| body.present);
+    let statics: Vec<&Body> = present().filter(|body| body.is_static()).collect();
+    let dynamic_bodies = present().count() - statics.len();
     let ballistic = model.is_ballistic();
-    let lossy =
-        movers.iter().any(|mover| mover.bounce < 1.0) || fixtures.iter().any(|fixture| fixture.bounce < 1.0);
-
-    let mut pairs = Vec::new();
-    if movers.len() > 1 {
-        pairs.push("sphere–sphere");
-    }
-    if spheres && !movers.is_empty() {
-        pairs.push("sphere–static sphere");
-    }
-    if plates && !movers.is_empty() {
-        pairs.push("sphere–plane");
-    }
+    let lossy = present().any(|body| body.bounce < 1.0);
 
     let mut left_out = vec!["rotation: frictionless spheres keep their spin, whatever it is"];
     if ballistic {
@@ -37,11 +28,25 @@ pub(super) fn plan_of(model: &Model) -> Plan {
         left_out.push("rest after bounces: this method lets bodies bounce for ever");
     }
     Plan {
-        dynamic_bodies: movers.len(),
-        static_bodies: fixtures.len(),
+        dynamic_bodies,
+        static_bodies: statics.len(),
         motion: if ballistic { "ballistic" } else { "field" },
-        pairs,
+        pairs: pairs_of(dynamic_bodies, &statics),
         lasting_contact: lossy && model.method == Method::Exact,
         left_out,
     }
+}
+
+/// Which shapes can meet: of static bodies spheres first, then by name.
+fn pairs_of(dynamic_bodies: usize, statics: &[&Body]) -> Vec<&'static str> {
+    let mut pairs = Vec::new();
+    if dynamic_bodies > 1 {
+        pairs.push("sphere–sphere");
+    }
+    if dynamic_bodies > 0 {
+        let name = |body: &&Body| (body.shape.radius() == 0.0, body.shape.convex().pair_name());
+        let names: BTreeSet<_> = statics.iter().map(name).collect();
+        pairs.extend(names.into_iter().map(|(_, name)| name));
+    }
+    pairs
 }

@@ -4,6 +4,9 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
+use super::body::BodyId;
+use super::pair::Pair;
+
 /// What is predicted. The order of the variants breaks ties in time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Kind {
@@ -13,25 +16,12 @@ pub(super) enum Kind {
     LeaveTiles,
     /// A body comes within the core radius of point attractor `b`.
     CorePass,
-    /// The last of the skipped bounces of dynamic bodies `a` and `b` on each other would end.
-    PairSettled,
-    /// The last of a body's skipped bounces on static body `b` would end.
+    /// The last of the skipped bounces of two bodies on each other would end.
     Settled,
-    /// Dynamic bodies `a` and `b` in lasting contact part.
-    PairEnd,
-    /// A body in lasting contact leaves static body `b`.
+    /// Two bodies in lasting contact part.
     ContactEnd,
-    /// Dynamic bodies `a` and `b` touch.
+    /// Two bodies touch.
     Impact,
-    /// Dynamic body `a` touches static body `b`.
-    FixtureImpact,
-}
-
-impl Kind {
-    /// Whether `b` is a dynamic body too.
-    pub fn is_of_pair(self) -> bool {
-        matches!(self, Self::PairSettled | Self::PairEnd | Self::Impact)
-    }
 }
 
 /// A prediction, good as long as the bodies it was made for have not changed.
@@ -40,18 +30,28 @@ pub(super) struct Predicted {
     /// Model time, s.
     pub time: f64,
     pub kind: Kind,
+    /// A dynamic body.
     pub a: u32,
-    pub b: u32,
+    /// The other body; [`BodyId::NONE`] where it is about one alone. A point attractor has its number among the
+    /// forces, as a static body.
+    pub b: BodyId,
     /// Number of the segment of `a`, and of `b` where that is a dynamic body, at the prediction.
     pub stamp_a: u32,
     pub stamp_b: u32,
 }
 
 impl Predicted {
+    /// The two bodies of a kind that is about two.
+    pub fn pair(&self) -> Pair {
+        Pair::of(self.a, self.b)
+    }
+
+    /// Ties of time and kind: what is between dynamic bodies first.
     fn key_order(&self, other: &Self) -> Ordering {
         self.time
             .total_cmp(&other.time)
             .then(self.kind.cmp(&other.kind))
+            .then(self.b.is_static().cmp(&other.b.is_static()))
             .then(self.a.cmp(&other.a))
             .then(self.b.cmp(&other.b))
             .then(self.stamp_a.cmp(&other.stamp_a))
@@ -167,7 +167,7 @@ mod tests {
     use super::*;
 
     fn predicted(time: f64, a: u32, stamp_a: u32) -> Predicted {
-        Predicted { time, kind: Kind::Impact, a, b: a + 1, stamp_a, stamp_b: 0 }
+        Predicted { time, kind: Kind::Impact, a, b: BodyId::of_dynamic(a + 1), stamp_a, stamp_b: 0 }
     }
 
     /// Random pushes, pops and changes of stamps, against a list that is searched anew each time.
@@ -222,6 +222,16 @@ mod tests {
         };
         assert_eq!(order([0, 1, 2, 3]), [9, 1, 2, 3]);
         assert_eq!(order([3, 2, 1, 0]), [9, 1, 2, 3]);
+    }
+
+    /// A body that touches another and a wall at once meets the other first, whatever their numbers.
+    #[test]
+    fn at_one_time_what_is_between_dynamic_bodies_comes_first() {
+        let mut queue = Queue::default();
+        let wall = Predicted { b: BodyId::of_static(0), ..predicted(1.0, 2, 0) };
+        [wall, predicted(1.0, 7, 0), predicted(1.0, 2, 0)].into_iter().for_each(|p| queue.push(p));
+        let order = std::iter::from_fn(|| queue.pop(1.0, &mut 0, |_| true)).map(|p| (p.a, p.b.is_static()));
+        assert_eq!(order.collect::<Vec<_>>(), [(2, false), (7, false), (2, true)]);
     }
 
     #[test]

@@ -16,9 +16,9 @@ pub(super) fn of_pair(bounce_a: f64, bounce_b: f64) -> f64 {
     bounce_a * bounce_b
 }
 
-/// m_a·m_b/(m_a + m_b), kg.
+/// m_a·m_b/(m_a + m_b), kg: the mass that an impulse moves. That of a static body is infinite.
 pub(super) fn reduced_mass(mass_a: f64, mass_b: f64) -> f64 {
-    mass_a * mass_b / (mass_a + mass_b)
+    if mass_b.is_infinite() { mass_a } else { mass_a * mass_b / (mass_a + mass_b) }
 }
 
 /// J = μ(1 + e)v_n,  v_n' = e·v_n,  ΔE = ½μ(v_n² − v_n'²), for the reduced mass μ: the mass itself against a

@@ -49,6 +49,11 @@ impl Segment {
             constrained: false,
         }
     }
+
+    /// The motion of what never moves.
+    pub fn resting(x: DVec3) -> Self {
+        Self::ballistic(0.0, x, DVec3::ZERO, DVec3::ZERO)
+    }
 }
 
 /// A segment with the series that belongs to it.

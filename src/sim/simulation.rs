@@ -4,19 +4,20 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::account::{self, present, subject};
+use super::body::{BodyId, Identity};
+use super::books::{self, subject};
 use super::candidates::{CandidateSet, candidate_sets};
 use super::compile::compile;
+use super::edit::{EditRefused, SimEdit};
+use super::event::{BodyRef, Event};
+use super::fault::Fault;
 use super::force::Force;
-use super::lasting::contact_state;
-use super::model::{Identity, Model};
-use super::motion::applied_force;
+use super::method::Method;
+use super::model::Model;
 use super::neighbours::enter;
+use super::report::{BodyState, Counters, Energy, Momentum, Plan, Tiling};
 use super::state::State;
-use super::{
-    BodyRef, BodyState, Counters, EditRefused, Energy, Event, Method, Momentum, Plan, SimEdit, Tiling,
-    change, hash, method, monitor,
-};
+use super::{change, drive, hash, monitor};
 use crate::scene::{Diagnostic, NodeKey, Scene};
 
 /// Why a scene can't be simulated.
@@ -35,14 +36,6 @@ pub enum Progress {
     Working,
     /// The time asked for is reached.
     Done,
-}
-
-/// A number went wrong while running. The simulation stops there; only an edit or a reset helps.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("at t = {time} s: {message}")]
-pub struct Fault {
-    pub time: f64,
-    pub message: String,
 }
 
 /// A bit-exact copy of a simulation at one time.
@@ -97,7 +90,7 @@ impl Simulation {
     /// can stop inside it and go on. An edit ends it.
     pub fn begin(&mut self, until: f64) {
         self.state.until = if until > self.state.now { until } else { self.state.now };
-        method::plan(&self.model, &mut self.state);
+        drive::plan(&self.model, &mut self.state);
     }
 
     /// Goes to the next event not after the time given to [`Self::begin`] and reports it; `None` when
@@ -125,7 +118,7 @@ impl Simulation {
             if let Some(fault) = &self.fault {
                 return Err(fault.clone());
             }
-            match method::advance(&self.model, &mut self.state) {
+            match drive::advance(&self.model, &mut self.state) {
                 Ok(true) => {}
                 Ok(false) => {
                     self.state.now = self.state.until;
@@ -159,17 +152,17 @@ impl Simulation {
 
     /// Dynamic bodies that are there now.
     pub fn dynamic_count(&self) -> usize {
-        present(&self.model).count()
+        self.model.present().count()
     }
 
     /// Static bodies that are there now.
     pub fn static_count(&self) -> usize {
-        self.model.fixtures.iter().filter(|fixture| fixture.present).count()
+        self.model.bodies.present_statics().count()
     }
 
     /// All dynamic bodies that are there now, in UserID order; those added while running come last.
     pub fn dynamic_bodies(&self) -> impl Iterator<Item = BodyRef> + '_ {
-        present(&self.model).map(BodyRef::Dynamic)
+        self.model.present().map(BodyRef::Dynamic)
     }
 
     /// State of a dynamic body now; `None` for a static or removed one.
@@ -180,14 +173,14 @@ impl Simulation {
             position: path.position(now),
             velocity: path.velocity(now),
             acceleration: path.acceleration(now),
-            contact: contact_state(&self.state, index, now),
+            contact: self.state.contact_state(index, now),
         })
     }
 
     /// Sum of the applied forces (without contact forces) on a dynamic body now, N; zero for others.
     pub fn total_force(&self, body: BodyRef) -> DVec3 {
         self.dynamic_index(body).map_or(DVec3::ZERO, |index| {
-            applied_force(&self.model, &subject(&self.model, &self.state, index, self.state.now))
+            self.model.applied_force(&subject(&self.model, &self.state, index, self.state.now))
         })
     }
 
@@ -203,20 +196,20 @@ impl Simulation {
 
     /// Mass in kg of a dynamic body; `None` for others.
     pub fn mass(&self, body: BodyRef) -> Option<f64> {
-        self.dynamic_index(body).map(|index| self.model.movers[index as usize].mass)
+        self.dynamic_index(body).map(|index| self.model.mass(index))
     }
 
     /// The body of a document key, if it is there now.
     pub fn find(&self, key: NodeKey) -> Option<BodyRef> {
-        change::find(&self.model, key)
+        change::find(&self.model, key).map(BodyId::to_ref)
     }
 
     pub fn energy(&self) -> Energy {
-        account::energy(&self.model, &self.state)
+        books::energy(&self.model, &self.state)
     }
 
     pub fn momentum(&self) -> Momentum {
-        account::momentum(&self.model, &self.state)
+        books::momentum(&self.model, &self.state)
     }
 
     /// Deepest overlap of any two bodies now, m, ≥ 0. Costs a look through the tiles.
@@ -291,26 +284,17 @@ impl Simulation {
     }
 
     fn dynamic_index(&self, body: BodyRef) -> Option<u32> {
-        match body {
-            BodyRef::Dynamic(index) if self.model.movers.get(index as usize).is_some_and(|m| m.present) => {
-                Some(index)
-            }
-            _ => None,
-        }
+        let id = BodyId::from_ref(body);
+        id.dynamic().filter(|_| self.model.bodies.find(id).is_some_and(|body| body.present))
     }
 
     fn identity(&self, body: BodyRef) -> Option<&Identity> {
-        match body {
-            BodyRef::Dynamic(index) => self.model.movers.get(index as usize).map(|mover| &*mover.identity),
-            BodyRef::Static(index) => {
-                self.model.fixtures.get(index as usize).map(|fixture| &*fixture.identity)
-            }
-        }
+        self.model.bodies.find(BodyId::from_ref(body)).map(|body| &*body.identity)
     }
 }
 
 /// First segments and predictions of all bodies. The books are opened before anything can touch them.
 fn start(model: &Model, state: &mut State) -> Result<(), Fault> {
-    account::open(model, state);
-    method::begin_all(model, state)
+    books::open(model, state);
+    drive::begin_all(model, state)
 }

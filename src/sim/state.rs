@@ -5,16 +5,17 @@ use std::collections::{BTreeMap, VecDeque};
 use glam::DVec3;
 
 use super::account::Account;
-use super::compile::Start;
-use super::contact::{Contact, Pair, Partner};
+use super::body::{BodyId, Origin};
+use super::contact::Contact;
+use super::event::Event;
 use super::model::Model;
 use super::motion::Plunge;
-use super::predict::Mover;
+use super::open_step::OpenStep;
+use super::pair::Pair;
 use super::queue::{Kind, Predicted, Queue};
+use super::report::{ContactState, Counters};
 use super::segment::{Path, Segment, Series};
-use super::stepping::OpenStep;
-use super::tiles::{MovingTiles, TileRange};
-use super::{Counters, Event};
+use super::tiles::{DynamicTiles, TileRange};
 
 /// Mutable part of a simulation; a clone of it is a bit-exact snapshot.
 #[derive(Clone, Debug)]
@@ -39,7 +40,7 @@ pub(super) struct State {
     pub touching: Vec<Vec<u32>>,
     /// The impacts of each body that follow each other closely.
     pub cascades: Vec<Cascade>,
-    pub moving: MovingTiles,
+    pub dynamic_tiles: DynamicTiles,
     pub queue: Queue,
     /// The Δt that a method which steps by it is in.
     pub step: Option<Box<OpenStep>>,
@@ -71,28 +72,28 @@ pub(super) struct Cascade {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Scratch {
     pub epoch: u32,
-    pub seen_moving: Vec<u32>,
-    pub seen_fixed: Vec<u32>,
-    pub found_moving: Vec<u32>,
-    pub found_fixed: Vec<u32>,
+    pub seen_dynamic: Vec<u32>,
+    pub seen_static: Vec<u32>,
+    pub found_dynamic: Vec<u32>,
+    pub found_static: Vec<u32>,
 }
 
 impl State {
     /// All bodies at their start, at t = 0, in no tile and with nothing predicted.
-    pub fn new(starts: &[Start]) -> Self {
+    pub fn new(origins: &[Origin]) -> Self {
         let mut state = Self {
             now: 0.0,
             reached: 0.0,
             until: 0.0,
-            segments: Vec::with_capacity(starts.len()),
-            stamps: Vec::with_capacity(starts.len()),
-            registered: Vec::with_capacity(starts.len()),
+            segments: Vec::with_capacity(origins.len()),
+            stamps: Vec::with_capacity(origins.len()),
+            registered: Vec::with_capacity(origins.len()),
             fields: Vec::new(),
             plunges: BTreeMap::new(),
-            contacts: Vec::with_capacity(starts.len()),
-            touching: Vec::with_capacity(starts.len()),
-            cascades: Vec::with_capacity(starts.len()),
-            moving: MovingTiles::default(),
+            contacts: Vec::with_capacity(origins.len()),
+            touching: Vec::with_capacity(origins.len()),
+            cascades: Vec::with_capacity(origins.len()),
+            dynamic_tiles: DynamicTiles::default(),
             queue: Queue::default(),
             step: None,
             outbox: VecDeque::new(),
@@ -102,16 +103,16 @@ impl State {
             counters: Counters::default(),
             scratch: Scratch::default(),
         };
-        for start in starts {
-            state.push_body(*start);
+        for origin in origins {
+            state.push_body(*origin);
         }
         state
     }
 
     /// Adds a dynamic body's row to every column, at rest in no tile; gives its index.
-    pub fn push_body(&mut self, start: Start) -> u32 {
+    pub fn push_body(&mut self, origin: Origin) -> u32 {
         let index = self.segments.len() as u32;
-        self.segments.push(Segment::ballistic(self.now, start.position, start.velocity, DVec3::ZERO));
+        self.segments.push(Segment::ballistic(self.now, origin.position, origin.velocity, DVec3::ZERO));
         self.stamps.push(0);
         self.registered.push(TileRange::default());
         self.contacts.push(Vec::new());
@@ -126,8 +127,12 @@ impl State {
         Path { segment, series }
     }
 
-    pub fn mover<'a>(&'a self, model: &Model, body: u32) -> Mover<'a> {
-        Mover { path: self.path(body), radius: model.radii[body as usize] }
+    /// The motion of any body.
+    pub fn path_of<'a>(&'a self, model: &'a Model, id: BodyId) -> Path<'a> {
+        match id.dynamic() {
+            Some(body) => self.path(body),
+            None => Path { segment: model.bodies.static_segment(id.index()), series: None },
+        }
     }
 
     pub fn motion_bytes(&self) -> usize {
@@ -145,33 +150,46 @@ impl State {
     /// Whether a prediction was made for the segments that its bodies still follow.
     pub fn holds(&self, predicted: &Predicted) -> bool {
         self.stamps[predicted.a as usize] == predicted.stamp_a
-            && (!predicted.kind.is_of_pair() || self.stamps[predicted.b as usize] == predicted.stamp_b)
+            && predicted.b.dynamic().is_none_or(|b| self.stamps[b as usize] == predicted.stamp_b)
     }
 
-    /// A prediction for one body (and perhaps something that does not move).
-    pub fn predict_one(&mut self, time: f64, kind: Kind, a: u32, b: u32) {
-        let stamp_a = self.stamps[a as usize];
-        self.queue.push(Predicted { time, kind, a, b, stamp_a, stamp_b: 0 });
+    /// A prediction for one body and what is no dynamic body.
+    pub fn predict_alone(&mut self, time: f64, kind: Kind, body: u32, b: BodyId) {
+        let stamp_a = self.stamps[body as usize];
+        self.queue.push(Predicted { time, kind, a: body, b, stamp_a, stamp_b: 0 });
     }
 
-    /// A prediction for two dynamic bodies.
-    pub fn predict_pair(&mut self, time: f64, kind: Kind, a: u32, b: u32) {
-        let (a, b) = (a.min(b), a.max(b));
-        let (stamp_a, stamp_b) = (self.stamps[a as usize], self.stamps[b as usize]);
-        self.queue.push(Predicted { time, kind, a, b, stamp_a, stamp_b });
+    /// A prediction for two bodies.
+    pub fn predict(&mut self, time: f64, kind: Kind, pair: Pair) {
+        let stamp_a = self.stamps[pair.first() as usize];
+        let stamp_b = pair.second().map_or(0, |b| self.stamps[b as usize]);
+        self.queue.push(Predicted { time, kind, a: pair.first(), b: pair.b, stamp_a, stamp_b });
     }
 
-    /// A prediction for the bodies of a pair: `kinds` are for a dynamic and a static partner.
-    pub fn predict_of(&mut self, time: f64, kinds: [Kind; 2], pair: Pair) {
-        match pair.partner {
-            Partner::Dynamic(other) => self.predict_pair(time, kinds[0], pair.a, other),
-            Partner::Static(fixture) => self.predict_one(time, kinds[1], pair.a, fixture),
+    /// How a body moves at a time, for people: a body in contact that neither moves nor is driven rests.
+    pub fn contact_state(&self, body: u32, time: f64) -> ContactState {
+        if self.contacts[body as usize].is_empty() {
+            return ContactState::Flight;
         }
+        let path = self.path(body);
+        let still = path.velocity(time) == DVec3::ZERO && path.acceleration(time) == DVec3::ZERO;
+        if still { ContactState::Rest } else { ContactState::Slide }
     }
 
-    /// Whether a body is in lasting contact with a partner.
-    pub fn is_in_contact(&self, body: u32, partner: Partner) -> bool {
-        self.contacts[body as usize].iter().any(|contact| contact.partner == partner)
+    /// The lasting contact of a pair.
+    pub fn contact(&self, pair: Pair) -> Option<&Contact> {
+        self.contacts[pair.first() as usize].iter().find(|contact| contact.other == pair.b)
+    }
+
+    /// Whether the dynamic bodies that a body is in contact with list the same contact.
+    pub fn has_symmetric_contacts(&self, body: u32) -> bool {
+        let listed = |back: &Contact, contact: &Contact| {
+            back.other.dynamic() == Some(body) && back.settles_at == contact.settles_at
+        };
+        self.contacts[body as usize].iter().all(|contact| {
+            let other = contact.other.dynamic();
+            other.is_none_or(|other| self.contacts[other as usize].iter().any(|back| listed(back, contact)))
+        })
     }
 
     /// Notes that two dynamic bodies lie against each other.

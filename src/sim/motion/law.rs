@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::plunge::{self, Next, Point};
 use super::radau::{RadauError, RadauStart, radau_step};
-use crate::sim::account::book_segment;
+use crate::sim::books::book_segment;
 use crate::sim::force::{Law, Subject};
 use crate::sim::model::Model;
 use crate::sim::segment::Segment;
@@ -21,7 +21,7 @@ pub(in crate::sim) enum SegmentError {
 
 /// Sum of the applied forces, N.
 pub(in crate::sim) fn applied_force(model: &Model, subject: &Subject<'_>) -> DVec3 {
-    model.forces.iter().map(|force| force.law.force(subject)).sum()
+    model.applied_force(subject)
 }
 
 /// Lets a body without lasting contacts go on from (x, v) at `time`: books the old segment, begins the new
@@ -161,14 +161,14 @@ pub(in crate::sim) fn subject_at(
     position: DVec3,
     velocity: DVec3,
 ) -> Subject<'_> {
-    let mover = &model.movers[body as usize];
+    let dynamic = model.dynamic(body);
     Subject {
         time,
         position,
         low: DVec3::ZERO,
         velocity,
-        mass: mover.mass,
-        radius: mover.radius,
-        material: mover.material.as_deref(),
+        mass: dynamic.mass(),
+        radius: model.radius(body),
+        material: dynamic.material.as_deref(),
     }
 }

@@ -5,11 +5,9 @@
 //! Stepping to the first root of the right side never passes a contact, however thin the body or long the
 //! step, and converges like Newton's method from the side that does not penetrate.
 
-use super::Gap;
+use super::gap::Gap;
 use crate::sim::roots::first_root;
-
-/// Steps before the search hands back the time it has reached, to be looked at again from there.
-const MAX_STEPS: u32 = 400;
+use crate::sim::tolerance::MOST_ADVANCES;
 
 /// Where a search starts and ends, and what bounds it.
 #[derive(Clone, Copy, Debug)]
@@ -28,7 +26,7 @@ pub(super) struct Search {
 /// whoever handles the event looks at the gap again.
 pub(super) fn first_contact(search: Search, gap_at: impl Fn(f64) -> Gap) -> Option<f64> {
     let mut time = search.from;
-    for _ in 0..MAX_STEPS {
+    for _ in 0..MOST_ADVANCES {
         let gap = gap_at(time);
         let closing = gap.is_closing();
         if gap.distance <= 0.0 && closing {

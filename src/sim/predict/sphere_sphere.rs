@@ -1,9 +1,11 @@
-//! Sphere against sphere, moving or fixed: d = |x_b − x_a| − (r_a + r_b).
+//! Sphere against sphere, of which the second may be static: d = |x_b − x_a| − (r_a + r_b).
 
 use glam::DVec3;
 
 use super::advance::{Search, first_contact as advance};
-use super::{Gap, Mover, snap, snap_pressure, touch_tolerance};
+use super::gap::{Ball, Gap, snap, snap_pressure};
+use crate::sim::shape::direction;
+use crate::sim::tolerance::SURELY_APART;
 
 /// Relative motion of `b` as seen from `a`.
 struct Relative {
@@ -16,7 +18,8 @@ struct Relative {
     drives: f64,
 }
 
-pub(super) fn first_contact(a: Mover<'_>, b: Mover<'_>, from: f64) -> Option<f64> {
+/// `slack` as of [`Search`]; most pairs need none.
+pub(super) fn first_contact(a: Ball<'_>, b: Ball<'_>, from: f64, slack: impl FnOnce() -> f64) -> Option<f64> {
     let (seg_a, seg_b) = (a.path.segment, b.path.segment);
     let from = seg_a.start.max(seg_b.start).max(from);
     let until = seg_a.end.min(seg_b.end);
@@ -29,14 +32,14 @@ pub(super) fn first_contact(a: Mover<'_>, b: Mover<'_>, from: f64) -> Option<f64
         return tau.map(|tau| from + tau).filter(|time| *time <= until);
     }
     let acceleration_bound = (!parabolas).then_some(seg_a.acceleration_bound + seg_b.acceleration_bound);
-    let slack = touch_tolerance(seg_a.x, a.radius).max(touch_tolerance(seg_b.x, b.radius));
-    advance(Search { from, until, acceleration_bound, slack }, |time| gap(a, b, time))
+    advance(Search { from, until, acceleration_bound, slack: slack() }, |time| gap(a, b, time))
 }
 
-/// A pair nearer than `near` may lie against each other. Without branches but one, so that the looks at many
-/// bodies overlap in the processor.
+/// Whether two dynamic spheres fly straight as seen from each other and pass or part: a quick look that is
+/// sure where it says so. It says so of no pair nearer than `near`, m: such a pair may lie against each other. Without
+/// branches but one, so that the looks at many bodies overlap in the processor.
 #[inline]
-pub(super) fn surely_pass(a: Mover<'_>, b: Mover<'_>, near: f64) -> bool {
+pub(in crate::sim) fn surely_pass(a: Ball<'_>, b: Ball<'_>, near: f64) -> bool {
     let (seg_a, seg_b) = (a.path.segment, b.path.segment);
     if seg_a.step > 0.0 || seg_b.step > 0.0 || seg_a.a != seg_b.a {
         return false;
@@ -51,40 +54,11 @@ pub(super) fn surely_pass(a: Mover<'_>, b: Mover<'_>, near: f64) -> bool {
     apart & ((p.dot(v) >= 0.0) | misses(p, v, reach))
 }
 
-pub(super) fn first_contact_fixed(mover: Mover<'_>, center: DVec3, radius: f64, from: f64) -> Option<f64> {
-    let seg = mover.path.segment;
-    let from = seg.start.max(from);
-    if mover.path.series.is_none() && seg.a == DVec3::ZERO {
-        let position = center - mover.path.position(from);
-        let tau = straight(position, -seg.v, || seg.v.length(), mover.radius + radius);
-        return tau.map(|tau| from + tau).filter(|time| *time <= seg.end);
-    }
-    let search = Search {
-        from,
-        until: seg.end,
-        acceleration_bound: mover.path.series.map(|_| seg.acceleration_bound),
-        slack: touch_tolerance(seg.x, mover.radius),
-    };
-    advance(search, |time| gap_fixed(mover, center, radius, time))
-}
-
-pub(super) fn gap(a: Mover<'_>, b: Mover<'_>, time: f64) -> Gap {
+pub(super) fn gap(a: Ball<'_>, b: Ball<'_>, time: f64) -> Gap {
     gap_of(&relative(a, b, time), a.path.position(time), a.radius, b.radius)
 }
 
-pub(super) fn gap_fixed(mover: Mover<'_>, center: DVec3, radius: f64, time: f64) -> Gap {
-    let (at, velocity) = (mover.path.position(time), mover.path.velocity(time));
-    let relative = Relative {
-        position: center - at,
-        velocity: -velocity,
-        acceleration: -mover.path.acceleration(time),
-        speeds: velocity.length(),
-        drives: mover.path.acceleration(time).length(),
-    };
-    gap_of(&relative, at, mover.radius, radius)
-}
-
-fn relative(a: Mover<'_>, b: Mover<'_>, time: f64) -> Relative {
+fn relative(a: Ball<'_>, b: Ball<'_>, time: f64) -> Relative {
     let (velocity_a, velocity_b) = (a.path.velocity(time), b.path.velocity(time));
     let (drive_a, drive_b) = (a.path.acceleration(time), b.path.acceleration(time));
     Relative {
@@ -97,10 +71,7 @@ fn relative(a: Mover<'_>, b: Mover<'_>, time: f64) -> Relative {
 }
 
 fn gap_of(relative: &Relative, at: DVec3, radius_a: f64, radius_b: f64) -> Gap {
-    let distance = relative.position.length();
-    // Coincident centres have no direction. A fixed one lets them part: one taken from the velocity
-    // would turn with every impact.
-    let normal = if distance > 0.0 { relative.position / distance } else { DVec3::X };
+    let (distance, normal) = direction(relative.position);
     let rate = normal.dot(relative.velocity);
     let across = relative.velocity - rate * normal;
     // d̈ = n·p̈ + |ṗ⊥|²/|p|
@@ -121,7 +92,7 @@ fn gap_of(relative: &Relative, at: DVec3, radius_a: f64, radius_b: f64) -> Gap {
 /// (p·v)² − v²(p² − R²) = v²R² − |p×v|²: no cancellation when far away, which tells a graze from a miss.
 fn misses(p: DVec3, v: DVec3, reach: f64) -> bool {
     (v.length_squared() * reach * reach < p.cross(v).length_squared())
-        & (p.length_squared() > (1.0 + 1e-9) * reach * reach)
+        & (p.length_squared() > (1.0 + SURELY_APART) * reach * reach)
 }
 
 /// First τ ≥ 0 with |p + vτ| = R while closing. `speeds` is the size of the speeds whose difference v is.

@@ -1,31 +1,24 @@
 //! The search of the method `fixed`: overlaps of bodies that share a tile at the end of the step.
 
-use super::StepLimits;
-use super::overlap::{Hit, hit};
-use super::step::{collide, register};
-use crate::sim::Fault;
-use crate::sim::account::present;
-use crate::sim::contact::{Pair, Partner};
+use super::limits::StepLimits;
+use super::overlap::hit;
+use super::register::register;
+use super::response::collide;
+use crate::sim::fault::Fault;
 use crate::sim::model::Model;
 use crate::sim::neighbours::near;
+use crate::sim::open_step::{Hit, PairSearch};
+use crate::sim::pair::Pair;
 use crate::sim::state::State;
-
-/// The overlaps at the end of a step that are not resolved yet.
-#[derive(Clone, Debug)]
-pub(super) struct PairSearch {
-    hits: Vec<Hit>,
-    /// Collisions of each body in this step.
-    collisions: Vec<u32>,
-}
 
 impl PairSearch {
     pub fn begin(model: &Model, state: &mut State, end: f64) -> Self {
-        for body in present(model) {
+        for body in model.present() {
             register(model, state, body, end);
         }
-        let mut search = Self { hits: Vec::new(), collisions: vec![0; model.movers.len()] };
+        let mut search = Self { hits: Vec::new(), collisions: vec![0; model.bodies.dynamic().len()] };
         let start = state.now;
-        for body in present(model) {
+        for body in model.present() {
             search.look(model, state, body, start, end, |other| other > body);
         }
         search
@@ -38,17 +31,17 @@ impl PairSearch {
     /// Lets the pair bounce and looks anew for what its bodies meet in the rest of the step. A body at its
     /// limit of collisions meets nothing more.
     pub fn resolve(&mut self, model: &Model, state: &mut State, hit: &Hit, end: f64) -> Result<(), Fault> {
-        collide(model, state, hit, hit.pair.bodies())?;
-        self.hits.retain(|other| !hit.pair.bodies().any(|body| other.involves(body)));
-        for body in hit.pair.bodies() {
+        collide(model, state, hit, hit.pair.dynamic())?;
+        self.hits.retain(|other| !hit.pair.dynamic().any(|body| other.involves(body)));
+        for body in hit.pair.dynamic() {
             register(model, state, body, end);
             self.collisions[body as usize] += 1;
             state.counters.given_up += u64::from(self.collisions[body as usize] == LIMIT);
         }
-        let second = hit.pair.other();
-        for body in hit.pair.bodies() {
+        let second = hit.pair.second();
+        for body in hit.pair.dynamic() {
             // the pair itself is looked at once
-            let skip = second.filter(|second| *second == body).map(|_| hit.pair.a);
+            let skip = second.filter(|second| *second == body).map(|_| hit.pair.first());
             self.look(model, state, body, hit.time, end, |other| Some(other) != skip);
         }
         Ok(())
@@ -67,13 +60,13 @@ impl PairSearch {
         if self.collisions[body as usize] >= LIMIT {
             return;
         }
-        for partner in near(model, state, body) {
-            if let Partner::Dynamic(other) = partner
+        for id in near(model, state, body) {
+            if let Some(other) = id.dynamic()
                 && (!wanted(other) || self.collisions[other as usize] >= LIMIT)
             {
                 continue;
             }
-            self.hits.extend(hit(model, state, Pair::new(body, partner), from, end));
+            self.hits.extend(hit(model, state, Pair::of(body, id), from, end));
         }
     }
 }

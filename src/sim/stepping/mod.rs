@@ -7,10 +7,11 @@
 mod fixed;
 mod limits;
 mod overlap;
+mod register;
 mod response;
 mod step;
 mod thesis;
 mod trial;
 
 pub use limits::StepLimits;
-pub(super) use step::{OpenStep, advance, begin_all, plan};
+pub(super) use step::{advance, begin_all, plan};

@@ -1,28 +1,12 @@
 //! Overlaps at the end of a trial step, and when they began.
 
-use super::StepLimits;
-use crate::sim::contact::{Pair, Partner, gap_of};
-use crate::sim::model::{FixtureShape, Model};
+use super::limits::StepLimits;
+use crate::sim::geometry::gap_of;
+use crate::sim::model::Model;
+use crate::sim::open_step::Hit;
+use crate::sim::pair::Pair;
+use crate::sim::shape::Shape;
 use crate::sim::state::State;
-
-/// A pair that overlaps at the end of its trial step.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Hit {
-    /// Just before the surfaces meet, s.
-    pub time: f64,
-    pub pair: Pair,
-}
-
-impl Hit {
-    /// Order by time; ties by the pair, so that a run is the same every time.
-    pub fn is_before(&self, other: &Self) -> bool {
-        self.time.total_cmp(&other.time).then(self.pair.cmp(&other.pair)).is_lt()
-    }
-
-    pub fn involves(&self, body: u32) -> bool {
-        self.pair.bodies().any(|other| other == body)
-    }
-}
 
 /// The hit of a pair between `from` and `to`, if it overlaps at `to`. A pair that overlaps at `from` already
 /// hits there if it closes in, and else is left to part.
@@ -41,21 +25,12 @@ pub(super) fn hit(model: &Model, state: &mut State, pair: Pair, from: f64, to: f
 
 /// Whether two bodies overlap: the test that is made most.
 fn overlaps(model: &Model, state: &State, pair: Pair, time: f64) -> bool {
-    let within = |other: glam::DVec3, reach: f64| {
-        (other - state.position(pair.a, time)).length_squared() < reach * reach
-    };
-    let radius = model.movers[pair.a as usize].radius;
-    match pair.partner {
-        Partner::Dynamic(other) => {
-            within(state.position(other, time), radius + model.movers[other as usize].radius)
-        }
-        Partner::Static(index) => {
-            let fixture = &model.fixtures[index as usize];
-            match &fixture.shape {
-                FixtureShape::Sphere { radius: fixed } => within(fixture.position, radius + fixed),
-                FixtureShape::Plate(_) => gap_of(model, state, pair, time).distance < 0.0,
-            }
-        }
+    if let Shape::Sphere(other) = &model.body(pair.b).shape {
+        let at = state.position(pair.first(), time);
+        let reach = model.radius(pair.first()) + other.radius;
+        (state.path_of(model, pair.b).position(time) - at).length_squared() < reach * reach
+    } else {
+        gap_of(model, state, pair, time).distance < 0.0
     }
 }
 
@@ -64,7 +39,7 @@ fn bisect(model: &Model, state: &State, pair: Pair, from: f64, to: f64) -> f64 {
     let limits = StepLimits::DEFAULT;
     let moved = |low: f64, high: f64| {
         let way = |of: u32| (state.position(of, high) - state.position(of, low)).length();
-        pair.bodies().map(way).fold(0.0, f64::max)
+        pair.dynamic().map(way).fold(0.0, f64::max)
     };
     let (mut low, mut high) = (from, to);
     for _ in 0..limits.halvings {

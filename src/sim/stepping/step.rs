@@ -1,30 +1,12 @@
 //! One Δt: trial steps, collisions in order of time, the end.
 
-use super::fixed::PairSearch;
-use super::overlap::Hit;
-use super::thesis::SetSearch;
-use super::{response, trial};
-use crate::sim::account::present;
+use super::register::register;
+use super::trial;
+use crate::sim::fault::Fault;
+use crate::sim::method::Method;
 use crate::sim::model::Model;
+use crate::sim::open_step::{Hit, OpenStep, PairSearch, Search, SetSearch};
 use crate::sim::state::State;
-use crate::sim::{Fault, Method};
-
-/// A Δt that is not over.
-#[derive(Clone, Debug)]
-pub(in crate::sim) struct OpenStep {
-    /// s.
-    end: f64,
-    search: Search,
-}
-
-/// The collisions left in a Δt.
-#[derive(Clone, Debug)]
-enum Search {
-    /// The trial steps are still to be made.
-    Planned,
-    Sets(SetSearch),
-    Pairs(PairSearch),
-}
 
 /// Opens a Δt from `state.now` to `state.until` unless one is open: that one keeps its end.
 pub(in crate::sim) fn plan(state: &mut State) {
@@ -83,7 +65,7 @@ impl Search {
 
 /// Makes all motion up to the end of the Δt real.
 fn close(model: &Model, state: &mut State, end: f64) -> Result<(), Fault> {
-    for body in present(model) {
+    for body in model.present() {
         trial::move_to(model, state, body, end)?;
         register(model, state, body, end);
     }
@@ -95,35 +77,10 @@ fn close(model: &Model, state: &mut State, end: f64) -> Result<(), Fault> {
 pub(in crate::sim) fn begin_all(model: &Model, state: &mut State) -> Result<(), Fault> {
     state.step = None;
     let time = state.now;
-    for body in present(model) {
+    for body in model.present() {
         let (x, v) = (state.position(body, time), state.velocity(body, time));
         trial::begin(model, state, body, time, x, v)?;
         register(model, state, body, time);
     }
     Ok(())
-}
-
-/// Moves a body to the tiles of its box at `time`.
-pub(super) fn register(model: &Model, state: &mut State, body: u32, time: f64) {
-    let (position, radius) = (state.position(body, time), model.movers[body as usize].radius);
-    let new = model.grid.range(position - radius, position + radius);
-    let old = state.registered[body as usize];
-    if new != old {
-        state.moving.change(&model.grid, old, new, body);
-        state.registered[body as usize] = new;
-        state.counters.tile_crossings += 1;
-    }
-}
-
-/// Moves the bodies of a hit to it and lets them bounce.
-pub(super) fn collide(
-    model: &Model,
-    state: &mut State,
-    hit: &Hit,
-    moved: impl Iterator<Item = u32>,
-) -> Result<(), Fault> {
-    for body in moved {
-        trial::move_to(model, state, body, hit.time)?;
-    }
-    response::respond(model, state, hit)
 }

@@ -4,36 +4,23 @@
 //! nothing there; one that is past a thin body at the trial end never met it. Both are losses of the
 //! method and are kept.
 
-use super::StepLimits;
-use super::overlap::{Hit, hit};
-use super::step::{collide, register};
-use crate::sim::account::present;
+use super::limits::StepLimits;
+use super::overlap::hit;
+use super::register::register;
+use super::response::collide;
+use crate::sim::body::BodyId;
 use crate::sim::candidates::{CandidateSet, candidate_sets};
-use crate::sim::contact::{Pair, Partner};
+use crate::sim::event::BodyRef;
+use crate::sim::fault::Fault;
 use crate::sim::model::Model;
+use crate::sim::open_step::{Hit, LocalSet, SetSearch};
+use crate::sim::pair::Pair;
 use crate::sim::state::State;
-use crate::sim::{BodyRef, Fault};
-
-/// All local sets of a Δt.
-#[derive(Clone, Debug)]
-pub(super) struct SetSearch {
-    sets: Vec<LocalSet>,
-}
-
-/// Bodies that could meet in this Δt, and those that do.
-#[derive(Clone, Debug)]
-struct LocalSet {
-    moving: Vec<u32>,
-    fixed: Vec<u32>,
-    hits: Vec<Hit>,
-    /// Collisions that may still be resolved.
-    left: u32,
-}
 
 impl SetSearch {
     /// Registers all bodies where their trial step ends, and looks for overlaps there.
     pub fn begin(model: &Model, state: &mut State, end: f64) -> Self {
-        for body in present(model) {
+        for body in model.present() {
             register(model, state, body, end);
         }
         let found = candidate_sets(model, state);
@@ -50,7 +37,9 @@ impl SetSearch {
     }
 
     pub fn resolve(&mut self, model: &Model, state: &mut State, hit: &Hit, end: f64) -> Result<(), Fault> {
-        let Some(set) = self.sets.iter_mut().find(|set| set.hits.contains(hit)) else { return Ok(()) };
+        let Some(set) = self.sets.iter_mut().find(|set| set.hits.contains(hit)) else {
+            return Err(Fault::internal(hit.time, "a collision is in no local set"));
+        };
         set.resolve(model, state, hit, end)
     }
 }
@@ -64,11 +53,11 @@ impl LocalSet {
         let index = |body: &BodyRef| match *body {
             BodyRef::Dynamic(index) | BodyRef::Static(index) => index,
         };
-        let moving: Vec<u32> = set.dynamic.iter().map(index).collect();
+        let dynamic: Vec<u32> = set.dynamic.iter().map(index).collect();
         let large = model.static_tiles.large().iter().copied();
-        let fixed = set.fixed.iter().map(index).chain(large).collect();
-        let left = StepLimits::DEFAULT.collisions.saturating_mul(moving.len() as u32);
-        Self { moving, fixed, hits: Vec::new(), left }
+        let statics = set.fixed.iter().map(index).chain(large).collect();
+        let left = StepLimits::DEFAULT.collisions.saturating_mul(dynamic.len() as u32);
+        Self { dynamic, statics, hits: Vec::new(), left }
     }
 
     fn earliest(&self) -> Option<Hit> {
@@ -80,9 +69,9 @@ impl LocalSet {
     fn resolve(&mut self, model: &Model, state: &mut State, hit: &Hit, end: f64) -> Result<(), Fault> {
         let single = self.hits.len() == 1;
         if single {
-            collide(model, state, hit, hit.pair.bodies())?;
+            collide(model, state, hit, hit.pair.dynamic())?;
         } else {
-            collide(model, state, hit, self.moving.iter().copied())?;
+            collide(model, state, hit, self.dynamic.iter().copied())?;
         }
         self.left -= 1;
         self.look(model, state, hit.time, end, single.then_some(hit));
@@ -97,16 +86,16 @@ impl LocalSet {
     fn look(&mut self, model: &Model, state: &mut State, from: f64, end: f64, around: Option<&Hit>) {
         let concerned = |body: u32| around.is_none_or(|around| around.involves(body));
         self.hits.clear();
-        for (index, &body) in self.moving.iter().enumerate() {
-            for &other in &self.moving[index + 1..] {
+        for (index, &body) in self.dynamic.iter().enumerate() {
+            for &other in &self.dynamic[index + 1..] {
                 if concerned(body) || concerned(other) {
-                    let pair = Pair::new(body, Partner::Dynamic(other));
+                    let pair = Pair::of(body, BodyId::of_dynamic(other));
                     self.hits.extend(hit(model, state, pair, from, end));
                 }
             }
             if concerned(body) {
-                for &other in &self.fixed {
-                    let pair = Pair::new(body, Partner::Static(other));
+                for &other in &self.statics {
+                    let pair = Pair::of(body, BodyId::of_static(other));
                     self.hits.extend(hit(model, state, pair, from, end));
                 }
             }

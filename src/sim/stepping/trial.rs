@@ -2,13 +2,14 @@
 
 use glam::DVec3;
 
-use crate::sim::account::{book_segment, subject};
+use crate::sim::books::{book_segment, subject};
+use crate::sim::fault::Fault;
 use crate::sim::force::{Law, Subject};
+use crate::sim::method::Method;
 use crate::sim::model::Model;
 use crate::sim::motion::applied_force;
 use crate::sim::segment::Segment;
 use crate::sim::state::State;
-use crate::sim::{Fault, Method};
 
 /// Lets a body go on from (x, v): s = s₀ + v₀t + ½at² with a = F/m here. Books what it did so far.
 pub(super) fn begin(
@@ -64,7 +65,7 @@ fn acceleration(model: &Model, state: &mut State, at: &Subject<'_>) -> DVec3 {
 fn replace(model: &Model, state: &mut State, body: u32, segment: Segment) -> Result<(), Fault> {
     // The squares too: an infinite length compares with nothing.
     if ![segment.x, segment.v, segment.a].iter().all(|vector| vector.length_squared().is_finite()) {
-        let name = &model.movers[body as usize].identity.name;
+        let name = &model.dynamic(body).identity.name;
         let message = format!("body {name}: position, velocity or force is not a finite number");
         return Err(Fault { time: segment.start, message });
     }

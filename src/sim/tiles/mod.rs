@@ -1,11 +1,11 @@
 //! The uniform grid that tells which bodies are near each other.
 
 mod bricks;
+mod dynamic;
 mod grid;
-mod moving;
 mod statics;
 
 pub(super) use bricks::for_each_brick;
+pub(super) use dynamic::DynamicTiles;
 pub(super) use grid::{Grid, TileRange};
-pub(super) use moving::MovingTiles;
 pub(super) use statics::StaticTiles;

@@ -4,8 +4,9 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 
 use super::bricks::{BrickTile, for_each_brick, slots};
-use super::{Grid, TileRange};
-use crate::sim::model::{Fixture, FixtureShape, Plate};
+use super::grid::{Grid, TileRange};
+use crate::sim::body::{Bodies, BodyId};
+use crate::sim::shape::Convex;
 
 /// Lists of static bodies by tile, one after the other in one array; only bricks with bodies in them are
 /// stored.
@@ -30,12 +31,14 @@ struct Brick {
 }
 
 impl StaticTiles {
-    pub fn new(grid: &Grid, fixtures: &[Fixture], tile_limit: u64) -> Self {
+    pub fn new(grid: &Grid, bodies: &Bodies, tile_limit: u64) -> Self {
         let mut entries: Vec<(BrickTile, u32)> = Vec::new();
         let mut large = Vec::new();
-        for (index, fixture) in (0u32..).zip(fixtures).filter(|(_, fixture)| fixture.present) {
-            let margin = margin(fixture);
-            let (low, high) = fixture.bounds();
+        for index in bodies.present_statics() {
+            let at = bodies.static_segment(index).x;
+            let shape = bodies.get(BodyId::of_static(index)).shape.convex();
+            let (low, high) = shape.bounds(at);
+            let margin = margin(low, high);
             let range = grid.range(low - margin, high + margin);
             if range.len() > tile_limit.saturating_mul(64) {
                 large.push(index);
@@ -45,7 +48,7 @@ impl StaticTiles {
             entries.extend(
                 range
                     .tiles()
-                    .filter(|tile| touches(grid, *tile, fixture, margin))
+                    .filter(|tile| touches(grid, *tile, (shape, at), margin))
                     .map(|tile| (BrickTile::new(grid, tile), index)),
             );
             if (entries.len() - first) as u64 > tile_limit {
@@ -109,41 +112,15 @@ impl StaticTiles {
 }
 
 /// By how much a static body is taken as larger: above the rounding of the tests below, m.
-fn margin(fixture: &Fixture) -> f64 {
-    let (low, high) = fixture.bounds();
+fn margin(low: DVec3, high: DVec3) -> f64 {
     1e-12 * low.abs().max(high.abs()).max_element().max((high - low).max_element())
 }
 
 /// Whether a static body touches a tile (a border tile reaches as far as the body does).
-fn touches(grid: &Grid, tile: [u32; 3], fixture: &Fixture, margin: f64) -> bool {
-    let (body_low, body_high) = fixture.bounds();
+fn touches(grid: &Grid, tile: [u32; 3], (shape, at): (&dyn Convex, DVec3), margin: f64) -> bool {
+    let (body_low, body_high) = shape.bounds(at);
     let (low, high) = grid.bounds(&TileRange { low: tile, high: tile });
-    let low = low.max(body_low - 1.0) - margin;
-    let high = high.min(body_high + 1.0) + margin;
-    match &fixture.shape {
-        FixtureShape::Sphere { radius } => {
-            let nearest = fixture.position.clamp(low, high);
-            (nearest - fixture.position).length() <= *radius
-        }
-        FixtureShape::Plate(plate) => plate_touches_box(plate, low, high),
-    }
-}
-
-/// Separating axes of a rectangle and a box (Akenine-Möller 2001, for a rectangle instead of a triangle):
-/// the box's three, the plate's normal, and the nine cross products of their edges.
-fn plate_touches_box(plate: &Plate, low: DVec3, high: DVec3) -> bool {
-    let center = 0.5 * (low + high) - plate.center;
-    let half = 0.5 * (high - low);
-    let separated = |axis: DVec3| {
-        let reach = half.dot(axis.abs())
-            + plate.half_x * plate.axis_x.dot(axis).abs()
-            + plate.half_y * plate.axis_y.dot(axis).abs();
-        // Rounding of nearly parallel edges must not separate what touches.
-        axis.dot(center).abs() > reach + 1e-12 * (half.element_sum() + center.abs().element_sum())
-    };
-    let crosses =
-        DVec3::AXES.into_iter().flat_map(|edge| [edge.cross(plate.axis_x), edge.cross(plate.axis_y)]);
-    !DVec3::AXES.into_iter().chain([plate.normal]).chain(crosses).any(separated)
+    shape.touches_box(at, low.max(body_low - 1.0) - margin, high.min(body_high + 1.0) + margin)
 }
 
 #[cfg(test)]
@@ -154,7 +131,8 @@ mod tests {
 
     use super::*;
     use crate::scene::{Map, NodeKey};
-    use crate::sim::model::Identity;
+    use crate::sim::body::{Body, Identity};
+    use crate::sim::shape::{Plate, Shape, Sphere};
 
     struct Random(u64);
 
@@ -171,13 +149,15 @@ mod tests {
         }
     }
 
-    fn fixture(position: DVec3, shape: FixtureShape) -> Fixture {
+    fn only(position: DVec3, shape: Shape) -> Bodies {
         let (label, name) = (Arc::from("0"), Arc::from("0"));
-        let identity = Box::new(Identity { key: NodeKey(0), id: 0, label, name, order: 0 });
-        Fixture { identity, bounce: 1.0, position, shape, present: true }
+        let identity = Identity { key: NodeKey(0), id: 0, label, name, order: 0 };
+        let mut bodies = Bodies::default();
+        bodies.push(Body::new(identity, f64::INFINITY, 1.0, shape, None), position);
+        bodies
     }
 
-    fn random_plate(random: &mut Random) -> (Fixture, Plate) {
+    fn random_plate(random: &mut Random) -> (Bodies, Plate) {
         let center = random.vector(-2.0, 12.0);
         let turn = random.vector(-3.0, 3.0);
         let frame = DQuat::from_scaled_axis(turn);
@@ -189,7 +169,7 @@ mod tests {
             half_x: 0.05 + 4.0 * random.unit(),
             half_y: 0.05 + 4.0 * random.unit(),
         };
-        (fixture(center, FixtureShape::Plate(Box::new(plate))), plate)
+        (only(center, Shape::Plate(Box::new(plate))), plate)
     }
 
     /// Every point of a plate lies in a tile that lists it; a listed tile has a point near the plate.
@@ -199,8 +179,8 @@ mod tests {
         for counts in [[1, 1, 1], [10, 10, 10], [7, 31, 3]] {
             let grid = Grid::new(&Map { size: DVec3::splat(10.0), tiles: counts }, 0.0);
             for _ in 0..60 {
-                let (fixture, plate) = random_plate(&mut random);
-                let tiles = StaticTiles::new(&grid, &[fixture], 1_000_000);
+                let (bodies, plate) = random_plate(&mut random);
+                let tiles = StaticTiles::new(&grid, &bodies, 1_000_000);
                 for _ in 0..300 {
                     let u = plate.half_x * (2.0 * random.unit() - 1.0);
                     let v = plate.half_y * (2.0 * random.unit() - 1.0);
@@ -241,8 +221,8 @@ mod tests {
             half_x: 5.0,
             half_y: 5.0,
         };
-        let wall = fixture(plate.center, FixtureShape::Plate(Box::new(plate)));
-        let tiles = StaticTiles::new(&grid, &[wall], 4096);
+        let wall = only(plate.center, Shape::Plate(Box::new(plate)));
+        let tiles = StaticTiles::new(&grid, &wall, 4096);
         assert_eq!(tiles.large(), [0]);
         assert!(tiles.occupied().is_empty());
     }
@@ -250,8 +230,8 @@ mod tests {
     #[test]
     fn spheres_leave_out_the_corners_of_their_boxes() {
         let grid = Grid::new(&Map { size: DVec3::splat(10.0), tiles: [10, 10, 10] }, 0.0);
-        let ball = fixture(DVec3::splat(5.0), FixtureShape::Sphere { radius: 2.5 });
-        let tiles = StaticTiles::new(&grid, &[ball], 4096);
+        let ball = only(DVec3::splat(5.0), Shape::Sphere(Sphere { radius: 2.5 }));
+        let tiles = StaticTiles::new(&grid, &ball, 4096);
         assert_eq!(tiles.bodies(&grid, [4, 4, 4]), [0]);
         assert_eq!(tiles.bodies(&grid, [2, 5, 5]), [0]);
         assert_eq!(tiles.bodies(&grid, [2, 2, 2]), [0_u32; 0]);

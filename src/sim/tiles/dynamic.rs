@@ -3,12 +3,12 @@
 use rustc_hash::FxHashMap;
 
 use super::bricks::{BRICK_TILES, BrickTile, for_each_brick, slots};
-use super::{Grid, TileRange};
+use super::grid::{Grid, TileRange};
 
 /// Lists of dynamic bodies by tile; only bricks with bodies in them are stored. A list is a chain of small
 /// blocks out of one array.
 #[derive(Clone, Debug, Default)]
-pub(in crate::sim) struct MovingTiles {
+pub(in crate::sim) struct DynamicTiles {
     by_key: FxHashMap<u64, u32>,
     bricks: Vec<Brick>,
     blocks: Vec<Block>,
@@ -38,7 +38,7 @@ struct Block {
     next: u32,
 }
 
-impl MovingTiles {
+impl DynamicTiles {
     pub fn insert(&mut self, grid: &Grid, range: TileRange, body: u32) {
         self.insert_except(grid, range, None, body);
     }
@@ -205,7 +205,7 @@ mod tests {
             let high = std::array::from_fn(|axis| (low[axis] + random(3)).min(grid.counts[axis] - 1));
             (TileRange { low, high }, random(60))
         };
-        let mut tiles = MovingTiles::default();
+        let mut tiles = DynamicTiles::default();
         let mut places: BTreeMap<u32, TileRange> = BTreeMap::new();
         for round in 0..3000 {
             let (to, body) = range();

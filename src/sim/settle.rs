@@ -1,74 +1,12 @@
-//! Events of lasting contact: bounces that settle, surfaces that end, pressure that ceases.
+//! Which contacts of a group last after an impact: bounces that settle.
 
 use glam::DVec3;
 
-use super::ContactState;
 use super::constraint::{Link, enter_none, largest_push, stay_on};
-use super::contact::{Contact, Pair, Partner, Surface};
 use super::group::{Group, Member};
-use super::island::{connected, first_parting};
-use super::model::{FixtureShape, Model};
-use super::neighbours::first_beyond;
-use super::predict::{PRESSURE_ROUNDING, touch_tolerance};
-use super::queue::Kind;
-use super::state::State;
-
-/// Predicts when the contacts of a body settle or end on its present segment.
-pub(super) fn predict_contact_events(model: &Model, state: &mut State, body: u32, time: f64) {
-    for index in 0..state.contacts[body as usize].len() {
-        let contact = state.contacts[body as usize][index];
-        let pair = Pair::new(body, contact.partner);
-        if pair.a != body {
-            continue;
-        }
-        if let Some(settled) = contact.settles_at {
-            state.predict_of(settled.max(time), [Kind::PairSettled, Kind::Settled], pair);
-        }
-        if let Some(end) = end_of_face(model, state, body, &contact, time) {
-            state.predict_of(end, [Kind::PairEnd, Kind::ContactEnd], pair);
-        }
-    }
-    predict_parting(model, state, body);
-}
-
-/// Predicts where the island of a body comes apart, once for all its bodies.
-fn predict_parting(model: &Model, state: &mut State, body: u32) {
-    if state.contacts[body as usize].is_empty() || state.segments[body as usize].step == 0.0 {
-        return;
-    }
-    let ids = connected(state, [body]);
-    if ids.first() != Some(&body) {
-        return;
-    }
-    if let Some((time, pairs)) = first_parting(model, state, &ids) {
-        for pair in pairs {
-            state.predict_of(time, [Kind::PairEnd, Kind::ContactEnd], pair);
-        }
-    }
-}
-
-/// First time at which the body slides off the face of a plate.
-fn end_of_face(model: &Model, state: &State, body: u32, contact: &Contact, time: f64) -> Option<f64> {
-    let (Surface::Flat(_), Partner::Static(fixture)) = (contact.surface, contact.partner) else {
-        return None;
-    };
-    let FixtureShape::Plate(plate) = &model.fixtures[fixture as usize].shape else { return None };
-    let path = state.path(body);
-    // A rounding beyond the edge, so that what comes next meets the edge and not the face again.
-    let beyond = touch_tolerance(path.segment.x, model.movers[body as usize].radius);
-    let sides = [
-        (plate.axis_x, plate.half_x),
-        (-plate.axis_x, plate.half_x),
-        (plate.axis_y, plate.half_y),
-        (-plate.axis_y, plate.half_y),
-    ];
-    sides
-        .into_iter()
-        .filter_map(|(axis, half)| {
-            first_beyond(path, axis, axis.dot(plate.center) + half + beyond, 0.0, time)
-        })
-        .reduce(f64::min)
-}
+use super::model::Model;
+use super::predict::touch_tolerance;
+use super::tolerance::{PRESSURE_ROUNDING, SETTLING_ACCELERATION};
 
 /// A contact of a group that lasts from now on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,15 +49,12 @@ fn could_last(model: &Model, group: &Group, index: usize) -> Option<Candidate> {
     let member = &group.members[index];
     let parting = -group.closing(member);
     let is_undisturbed = member.is_lasting && parting <= group.rounding(member);
-    let slow = model.params.rest_speed.max((SLOWEST * slack(model, group, member)).sqrt());
+    let slow = model.params.rest_speed.max((SETTLING_ACCELERATION * slack(model, group, member)).sqrt());
     (is_undisturbed || parting <= slow).then_some(Candidate { member: index, is_undisturbed, flights: 0.0 })
 }
 
-/// More than any acceleration times two that is worth a thought, m/s²: a first, coarse sieve.
-const SLOWEST: f64 = 1e6;
-
 fn slack(model: &Model, group: &Group, member: &Member) -> f64 {
-    touch_tolerance(group.bodies.x[member.link.a], model.movers[member.pair.a as usize].radius)
+    touch_tolerance(group.bodies.x[member.link.a], model.radius(member.pair.first()))
 }
 
 /// Leaves those candidates whose bounces end while all the others hold.
@@ -187,14 +122,4 @@ fn level(group: &mut Group, settling: &[Settling]) {
     for (contact, multiplier) in settling.iter().zip(multipliers) {
         group.members[contact.member].impulse += multiplier;
     }
-}
-
-/// How a body moves at a time, for people: a body in contact that neither moves nor is driven rests.
-pub(super) fn contact_state(state: &State, body: u32, time: f64) -> ContactState {
-    if state.contacts[body as usize].is_empty() {
-        return ContactState::Flight;
-    }
-    let path = state.path(body);
-    let still = path.velocity(time) == DVec3::ZERO && path.acceleration(time) == DVec3::ZERO;
-    if still { ContactState::Rest } else { ContactState::Slide }
 }

@@ -1,0 +1,212 @@
+//! Bodies: how they are told apart, and what does not change about them while they move.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::event::BodyRef;
+use super::segment::Segment;
+use super::shape::Shape;
+
+/// A body of a run. Dynamic ones are numbered from 0, which is their place in all columns of the state; static
+/// ones carry the highest bit, so that of two bodies the dynamic one comes first. A number never changes, whoever
+/// is added or removed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct BodyId(u32);
+
+const STATIC: u32 = 1 << 31;
+
+impl BodyId {
+    /// No body; it counts as static.
+    pub const NONE: Self = Self(u32::MAX);
+
+    pub fn of_dynamic(index: u32) -> Self {
+        debug_assert!(index < STATIC, "no dynamic body has the number {index}");
+        Self(index)
+    }
+
+    pub fn of_static(index: u32) -> Self {
+        Self(STATIC | index)
+    }
+
+    pub fn is_static(self) -> bool {
+        self.0 >= STATIC
+    }
+
+    /// Place among the bodies of its kind.
+    pub fn index(self) -> u32 {
+        self.0 & !STATIC
+    }
+
+    /// Place in the columns of the state.
+    pub fn dynamic(self) -> Option<u32> {
+        (!self.is_static()).then_some(self.0)
+    }
+
+    pub fn to_ref(self) -> BodyRef {
+        if self.is_static() { BodyRef::Static(self.index()) } else { BodyRef::Dynamic(self.0) }
+    }
+
+    pub fn from_ref(body: BodyRef) -> Self {
+        match body {
+            BodyRef::Dynamic(index) if index < STATIC => Self::of_dynamic(index),
+            BodyRef::Static(index) if index < STATIC => Self::of_static(index),
+            BodyRef::Dynamic(_) | BodyRef::Static(_) => Self::NONE,
+        }
+    }
+}
+
+/// Who a body is.
+#[derive(Clone, Debug)]
+pub(super) struct Identity {
+    pub key: crate::scene::NodeKey,
+    pub id: i64,
+    pub label: Arc<str>,
+    /// What a person calls it: its name, else its label.
+    pub name: Arc<str>,
+    /// Order among bodies of the same id.
+    pub order: u32,
+}
+
+/// What does not change about a body.
+#[derive(Clone, Debug)]
+pub(super) struct Body {
+    /// Apart, since predictions never look at it.
+    pub identity: Box<Identity>,
+    /// kg; infinite for a static body.
+    mass: f64,
+    /// 1/kg; 0 for a static body.
+    inverse_mass: f64,
+    pub bounce: f64,
+    pub shape: Shape,
+    pub material: Option<Arc<str>>,
+    /// False once it is removed: the numbers of the others stay.
+    pub present: bool,
+}
+
+impl Body {
+    /// `mass` in kg; infinite for a static body.
+    pub fn new(identity: Identity, mass: f64, bounce: f64, shape: Shape, material: Option<&str>) -> Self {
+        Self {
+            identity: Box::new(identity),
+            mass,
+            inverse_mass: 1.0 / mass,
+            bounce,
+            shape,
+            material: material.map(Arc::from),
+            present: true,
+        }
+    }
+
+    pub fn is_static(&self) -> bool {
+        self.mass.is_infinite()
+    }
+
+    /// kg; infinite for a static body.
+    pub fn mass(&self) -> f64 {
+        self.mass
+    }
+
+    /// 1/kg; 0 for a static body.
+    pub fn inverse_mass(&self) -> f64 {
+        self.inverse_mass
+    }
+
+    /// kg, of a dynamic body.
+    pub fn set_mass(&mut self, mass: f64) {
+        (self.mass, self.inverse_mass) = (mass, 1.0 / mass);
+    }
+}
+
+/// Where a body starts; a static one stays there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Origin {
+    /// m.
+    pub position: DVec3,
+    /// m/s.
+    pub velocity: DVec3,
+}
+
+/// The table of all bodies.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Bodies {
+    dynamic: Vec<Body>,
+    statics: Vec<Body>,
+    /// Radii of the dynamic bodies, m: close together, for predictions read many.
+    radii: Vec<f64>,
+    /// Where the static bodies are, as motions that never change.
+    static_segments: Vec<Segment>,
+}
+
+impl Bodies {
+    /// Adds a body; a static one at this place, m.
+    pub fn push(&mut self, body: Body, position: DVec3) -> BodyId {
+        if body.is_static() {
+            self.statics.push(body);
+            self.static_segments.push(Segment::resting(position));
+            BodyId::of_static(self.statics.len() as u32 - 1)
+        } else {
+            self.radii.push(body.shape.radius());
+            self.dynamic.push(body);
+            BodyId::of_dynamic(self.dynamic.len() as u32 - 1)
+        }
+    }
+
+    /// Puts another static body in the place of one.
+    pub fn replace_static(&mut self, index: u32, body: Body, position: DVec3) {
+        self.statics[index as usize] = body;
+        self.static_segments[index as usize] = Segment::resting(position);
+    }
+
+    pub fn find(&self, id: BodyId) -> Option<&Body> {
+        self.of_kind(id.is_static()).get(id.index() as usize)
+    }
+
+    pub fn get(&self, id: BodyId) -> &Body {
+        &self.of_kind(id.is_static())[id.index() as usize]
+    }
+
+    pub fn get_mut(&mut self, id: BodyId) -> &mut Body {
+        let list = if id.is_static() { &mut self.statics } else { &mut self.dynamic };
+        &mut list[id.index() as usize]
+    }
+
+    fn of_kind(&self, is_static: bool) -> &[Body] {
+        if is_static { &self.statics } else { &self.dynamic }
+    }
+
+    pub fn dynamic(&self) -> &[Body] {
+        &self.dynamic
+    }
+
+    pub fn radius(&self, body: u32) -> f64 {
+        self.radii[body as usize]
+    }
+
+    /// How many static bodies there are, with those removed.
+    pub fn static_len(&self) -> usize {
+        self.statics.len()
+    }
+
+    /// Where a static body is.
+    pub fn static_segment(&self, index: u32) -> &Segment {
+        &self.static_segments[index as usize]
+    }
+
+    /// All dynamic bodies that are there.
+    pub fn present_dynamic(&self) -> impl Iterator<Item = u32> + '_ {
+        (0u32..).zip(&self.dynamic).filter(|(_, body)| body.present).map(|(index, _)| index)
+    }
+
+    /// All static bodies that are there.
+    pub fn present_statics(&self) -> impl Iterator<Item = u32> + '_ {
+        (0u32..).zip(&self.statics).filter(|(_, body)| body.present).map(|(index, _)| index)
+    }
+
+    /// All bodies, with those removed: dynamic ones first.
+    pub fn iter(&self) -> impl Iterator<Item = (BodyId, &Body)> {
+        let dynamic = (0u32..).zip(&self.dynamic).map(|(index, body)| (BodyId::of_dynamic(index), body));
+        let statics = (0u32..).zip(&self.statics).map(|(index, body)| (BodyId::of_static(index), body));
+        dynamic.chain(statics)
+    }
+}

@@ -1,0 +1,38 @@
+//! The exchange of two bodies that meet alone, by Newton's law of restitution: booked and listed.
+
+use glam::DVec3;
+
+use super::event::{Event, EventKind};
+use super::geometry::restitution_of;
+use super::ledger::{contact_event, in_id_order, record};
+use super::model::Model;
+use super::pair::Pair;
+use super::predict::Gap;
+use super::restitution::{Blow, blow, reduced_mass};
+use super::state::State;
+
+/// Books and lists an impact of two bodies by Newton's law, v_n' = −e v_n. Gives the impulse on the second one
+/// along the normal, N·s; the first takes the opposite.
+pub(super) fn exchange(model: &Model, state: &mut State, time: f64, pair: Pair, gap: &Gap) -> f64 {
+    let moved = reduced_mass(model.body(pair.a).mass(), model.body(pair.b).mass());
+    let Blow { impulse, parting, loss } = blow(moved, restitution_of(model, pair), -gap.rate);
+    state.account.impact_losses.add(loss);
+    if pair.b.is_static() {
+        state.account.impulses.add(-impulse * gap.normal);
+    }
+    state.group += 1;
+    let event = Event {
+        impulse,
+        vn_before: gap.rate,
+        vn_after: parting,
+        group: state.group,
+        ..contact_event(time, EventKind::Impact, pair, gap)
+    };
+    record(state, in_id_order(model, event));
+    impulse
+}
+
+/// What an impulse along the normal does to a dynamic body, m/s.
+pub(super) fn velocity_change(model: &Model, body: u32, impulse: f64, normal: DVec3) -> DVec3 {
+    impulse / model.mass(body) * normal
+}

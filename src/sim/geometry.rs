@@ -1,0 +1,81 @@
+//! Geometry of the bodies where the state has them: gaps, surfaces, contacts as bounds on motion.
+
+use glam::DVec3;
+
+use super::body::BodyId;
+use super::constraint::Link;
+use super::model::Model;
+use super::pair::Pair;
+use super::predict::{self, Ball, Gap, Target};
+use super::restitution::of_pair;
+use super::shape::{Surface, direction};
+use super::state::State;
+
+/// A dynamic body as prediction sees it.
+pub(super) fn ball<'a>(model: &Model, state: &'a State, body: u32) -> Ball<'a> {
+    Ball { path: state.path(body), radius: model.radius(body) }
+}
+
+/// Any body as prediction sees it.
+pub(super) fn target<'a>(model: &'a Model, state: &'a State, id: BodyId) -> Target<'a> {
+    if let Some(body) = id.dynamic() {
+        return Target::Dynamic(ball(model, state, body));
+    }
+    let path = state.path_of(model, id);
+    Target::at_rest(&model.body(id).shape, path)
+}
+
+/// What a body at `position` touches of a static one.
+pub(super) fn surface_of(model: &Model, id: BodyId, position: DVec3) -> Surface {
+    model.body(id).shape.convex().nearest(model.bodies.static_segment(id.index()).x, position).surface()
+}
+
+/// The gap of two bodies, with the normal from `a` to `b`.
+pub(super) fn gap_of(model: &Model, state: &State, pair: Pair, time: f64) -> Gap {
+    predict::gap(ball(model, state, pair.first()), target(model, state, pair.b), time)
+}
+
+/// Product of the two Bounce values.
+pub(super) fn restitution_of(model: &Model, pair: Pair) -> f64 {
+    of_pair(model.body(pair.a).bounce, model.body(pair.b).bounce)
+}
+
+/// Some bodies at one time, in the order of their indices.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BodiesAt<'a> {
+    pub ids: &'a [u32],
+    pub x: &'a [DVec3],
+    pub v: &'a [DVec3],
+}
+
+impl BodiesAt<'_> {
+    fn row(&self, body: u32) -> usize {
+        let row = self.ids.partition_point(|id| *id < body);
+        debug_assert_eq!(self.ids.get(row), Some(&body), "contacts are between bodies of one set");
+        row
+    }
+
+    /// A contact among these bodies as a bound on their accelerations. The limit is the centripetal
+    /// acceleration |v⊥|²/ρ that keeps them on a curved surface of radius ρ: less than that and they part.
+    pub fn link(&self, model: &Model, pair: Pair, surface: Surface) -> Link {
+        let a = self.row(pair.first());
+        let b = pair.second().map(|other| self.row(other));
+        let (towards, limit) = match (b, surface) {
+            (Some(b), _) => on_sphere(self.x[b] - self.x[a], self.v[a] - self.v[b]),
+            (None, Surface::Flat(towards)) => (towards, 0.0),
+            (None, Surface::Round) => {
+                let at = model.bodies.static_segment(pair.b.index()).x;
+                let near = model.body(pair.b).shape.convex().nearest(at, self.x[a]);
+                (near.towards, near.turn_away(self.v[a]))
+            }
+        };
+        Link { a, b, towards, limit }
+    }
+}
+
+/// Direction to the other centre, and |v⊥|²/distance.
+fn on_sphere(apart: DVec3, velocity: DVec3) -> (DVec3, f64) {
+    let (distance, towards) = direction(apart);
+    let across = velocity - velocity.dot(towards) * towards;
+    (towards, across.length_squared() / distance.max(f64::MIN_POSITIVE))
+}
