@@ -91,7 +91,7 @@ fn is_reversible(model: &Model) -> bool {
     model.forces.iter().all(|force| matches!(force.law, Law::Point { .. }) || force.law.is_uniform())
 }
 
-/// Turns a body back on its way at the core; false where the way can't be retraced.
+/// Turns a body back on its way at the core; false where the way cannot be retraced.
 pub(in crate::sim) fn turn_back(model: &Model, state: &mut State, body: u32, time: f64) -> bool {
     let old = state.segments[body as usize];
     if old.step == 0.0 || old.constrained || !is_reversible(model) {
