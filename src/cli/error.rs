@@ -2,7 +2,10 @@
 
 use std::fmt::Display;
 use std::io::Write as _;
+use std::path::Path;
 
+use crate::record::Exceeded;
+use crate::scene::{escaped, shown_path};
 use crate::sim::{Fault, Simulation};
 
 /// Why a verb did not end well.
@@ -11,12 +14,18 @@ pub enum CliError {
     /// The problems themselves were printed already.
     #[error("{0}")]
     Scene(String),
-    /// Bad arguments, or an output that can't be written.
+    /// Bad arguments, or an output that cannot be written.
     #[error("{0}")]
     Usage(String),
     /// The run stopped where a number went wrong.
     #[error("the run stopped {0}")]
     Fault(Fault),
+    /// `--max-events` or `--max-wall`.
+    #[error("stopped early at t = {time} s: {why}; what was written is complete up to there")]
+    Stopped { time: f64, why: Exceeded },
+    /// The same, of a study.
+    #[error("stopped early: {0}; the report holds what was done so far")]
+    StudyStopped(String),
     /// Ctrl-C or a request to terminate.
     #[error("interrupted at t = {time} s; what was written so far is complete")]
     Interrupted { time: f64 },
@@ -26,27 +35,34 @@ pub enum CliError {
 }
 
 impl CliError {
-    /// 1 the scene has errors, 2 bad usage, 3 a numerical fault, 130 interrupted.
+    /// 1 the scene has errors, 2 bad usage, 3 a numerical fault, 4 stopped early, 130 interrupted.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Scene(_) => 1,
             Self::Usage(_) => 2,
             Self::Fault(_) => 3,
+            Self::Stopped { .. } | Self::StudyStopped(_) => 4,
             Self::Interrupted { .. } | Self::Cancelled => 130,
         }
     }
 
-    /// The editor can't open its window; the verbs don't need one.
+    /// The editor cannot open its window; the verbs do not need one.
     pub fn no_window(reason: impl Display) -> Self {
         Self::Usage(format!(
-            "the editor can't open a window: {reason}\n\
+            "the editor cannot open a window: {reason}\n\
              Without a display, simulate a scene with `polyscene run SCENE --dt S --until S` and draw it \
              with `polyscene render SCENE --out PICTURE.png`."
         ))
     }
 
-    pub(super) fn unwritable(name: impl Display, error: &std::io::Error) -> Self {
-        Self::Usage(format!("can't write {name}: {error}"))
+    /// An output file that cannot be written.
+    pub(super) fn unwritable(path: &Path, error: &std::io::Error) -> Self {
+        Self::Usage(format!("cannot write {}: {error}", shown_path(path)))
+    }
+
+    /// The same, of standard output or what an option prints there.
+    pub(super) fn unprintable(name: &str, error: &std::io::Error) -> Self {
+        Self::Usage(format!("cannot write {name}: {error}"))
     }
 
     pub(super) fn interrupted(sim: &Simulation) -> Self {
@@ -56,5 +72,10 @@ impl CliError {
 
 /// Tells the person at the terminal. Nothing sensible is left to do when standard error is closed.
 pub fn say(message: impl Display) {
-    let _ = writeln!(std::io::stderr(), "polyscene: {message}");
+    let _ = writeln!(std::io::stderr(), "polyscene: {}", escaped_lines(&message.to_string()));
+}
+
+/// Every line as text, whatever names it holds.
+pub(super) fn escaped_lines(text: &str) -> String {
+    text.split('\n').map(escaped).collect::<Vec<_>>().join("\n")
 }

@@ -8,7 +8,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
 use super::{CliError, output};
-use crate::scene::write_atomically;
+use crate::scene::{shown_path, write_atomically};
 use crate::study::cases::{CASES, Case, CaseResult as Outcome, Figure, STEPS, markdown, measure, text};
 
 /// Measure the hard cases: scenes with known outcomes at which methods fail
@@ -68,8 +68,7 @@ pub(super) fn hard_cases(args: &HardCasesArgs) -> Result<(), CliError> {
     }
     if let (Some(path), Some((before, after))) = (&args.markdown, frame) {
         let whole = format!("{before}{}{after}", markdown(&measured));
-        write_atomically(path, whole.as_bytes())
-            .map_err(|error| CliError::unwritable(path.display(), &error))?;
+        write_atomically(path, whole.as_bytes()).map_err(|error| CliError::unwritable(path, &error))?;
     }
     let missed = |(case, outcomes): &(&Case, Vec<Outcome>)| {
         figures(case, outcomes).iter().filter(|figure| !figure.held).count()
@@ -102,15 +101,14 @@ fn is_called(case: &Case, name: &str) -> bool {
 
 /// What stands before and after the table in a Markdown file.
 fn frame(path: &Path) -> Result<(String, String), CliError> {
-    let whole =
-        std::fs::read_to_string(path).map_err(|error| CliError::unwritable(path.display(), &error))?;
+    let whole = std::fs::read_to_string(path).map_err(|error| CliError::unwritable(path, &error))?;
     let begin = whole.find(BEGIN).map(|at| at + BEGIN.len());
     let end = whole.find(END);
     match (begin, end) {
         (Some(begin), Some(end)) if begin <= end => Ok((whole[..begin].to_owned(), whole[end..].to_owned())),
         _ => Err(CliError::Usage(format!(
             "--markdown: {} lacks the lines `{}` and `{END}` between which the table belongs",
-            path.display(),
+            shown_path(path),
             BEGIN.trim_end()
         ))),
     }
@@ -125,7 +123,7 @@ fn bar(length: usize) -> ProgressBar {
 }
 
 fn failed(error: &std::io::Error) -> CliError {
-    CliError::unwritable("standard output", error)
+    CliError::unprintable("standard output", error)
 }
 
 #[derive(Serialize)]

@@ -4,7 +4,7 @@ use std::io::Read as _;
 use std::path::Path;
 
 use super::CliError;
-use crate::scene::{Diagnostic, Document};
+use crate::scene::{Diagnostic, Document, shown_path};
 use crate::sim::{Method, Simulation};
 
 /// A scene file is at most 256 MiB; one byte more is enough for the reader to say so.
@@ -39,13 +39,13 @@ pub fn open(path: &Path, method: Method) -> Result<Examined, CliError> {
         .lock()
         .take(STDIN_LIMIT)
         .read_to_end(&mut bytes)
-        .map_err(|error| CliError::Usage(format!("can't read standard input: {error}")))?;
+        .map_err(|error| CliError::Usage(format!("cannot read standard input: {error}")))?;
     Ok(examine(Document::from_bytes(&bytes), method))
 }
 
 /// What to call a scene file in messages.
 pub fn display_name(path: &Path) -> String {
-    if path.as_os_str() == "-" { "<stdin>".into() } else { path.display().to_string() }
+    if path.as_os_str() == "-" { "<stdin>".into() } else { shown_path(path) }
 }
 
 /// Finds all problems: of the text, of what it means, and of the geometry at the start. The simulation steps
@@ -76,10 +76,5 @@ fn placed(document: &Document, mut problem: Diagnostic) -> Diagnostic {
 
 fn problem_line(file: &str, problem: &Diagnostic) -> String {
     let separator = if problem.position.is_some() { ":" } else { ": " };
-    one_line(&format!("{file}{separator}{problem}"))
-}
-
-/// Keeps a message on its line, and a hostile file's control characters out of the terminal.
-pub fn one_line(text: &str) -> String {
-    text.chars().flat_map(|c| if c.is_control() { c.escape_default().collect() } else { vec![c] }).collect()
+    format!("{file}{separator}{problem}")
 }

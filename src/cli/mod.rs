@@ -6,18 +6,24 @@ mod error;
 mod hard_cases;
 mod input;
 mod interrupt;
+mod limits;
 mod method;
 mod number;
 mod output;
 #[cfg(feature = "render")]
 mod render;
 mod run;
+mod samples;
 mod study;
 
 use std::ffi::OsString;
+use std::io::{ErrorKind, Write as _};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+
+use self::error::escaped_lines;
+use crate::scene::escaped;
 
 pub use check::CheckArgs;
 pub use edit::EditArgs;
@@ -40,7 +46,8 @@ pub use study::StudyArgs;
     disable_help_subcommand = true,
     after_help = "Without a verb the editor's window opens; a file named like a verb is given as ./run.\n\n\
                   Exit codes: 0 fine (warnings allowed), 1 the scene has errors, 2 bad usage or an output that \
-                  can't be written, 3 the run stopped on a numerical fault, 130 interrupted."
+                  cannot be written, 3 the run stopped on a numerical fault, 4 it stopped early at --max-events or \
+                  --max-wall, 130 interrupted."
 )]
 struct Cli {
     #[command(subcommand)]
@@ -95,7 +102,21 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Request {
 
 /// Prints help or a complaint where it belongs: exit code 0 for help, 2 for bad usage.
 pub fn print_help(error: &clap::Error) -> ExitCode {
-    // A closed pipe (`--help | head`) is no reason to complain.
-    let _ = error.print();
-    ExitCode::from(if error.use_stderr() { 2 } else { 0 })
+    let complaint = error.render().to_string();
+    if error.use_stderr() && complaint.lines().any(|line| escaped(line) != line) {
+        // Names from the command line, which may come from files, as text.
+        let _ = std::io::stderr().write_all(escaped_lines(&complaint).as_bytes());
+        return ExitCode::from(2);
+    }
+    let printed = error.print().and_then(|()| std::io::stdout().flush());
+    match printed {
+        _ if error.use_stderr() => ExitCode::from(2),
+        // A closed pipe (`--help | head`) is no reason to complain.
+        Err(failure) if failure.kind() != ErrorKind::BrokenPipe => {
+            let complaint = CliError::unprintable("standard output", &failure);
+            say(&complaint);
+            ExitCode::from(complaint.exit_code())
+        }
+        _ => ExitCode::SUCCESS,
+    }
 }

@@ -5,10 +5,12 @@ use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
 
-use super::{CliError, input, number, output};
-use crate::record::{Frame, InlineRunner, RunCommand, RunState, Runner as _};
+use super::limits::LimitArgs;
+use super::samples::SampleGrid;
+use super::{CliError, input, method, number, output};
+use crate::record::{Exceeded, Frame, InlineRunner, RunCommand, RunState, Runner as _};
 use crate::render::{Offscreen, RenderError, Tile, render_picture, write_png};
-use crate::scene::{Scene, check_writable};
+use crate::scene::{Scene, check_writable, shown_path};
 use crate::sim::{Fault, Method};
 use crate::view::{
     Align, Camera, DrawList, Label, OVERLAYS, OverlaySet, Theme, VIEWS, ViewInput, ViewPreset, Viewport,
@@ -19,7 +21,8 @@ use crate::view::{
 ///
 /// Needs neither a display nor a GPU: OpenGL runs in software through EGL. Shows the start, or the state
 /// at `--at` with the contacts of the last Δt. A simulation that stops before `--at` on a numerical fault
-/// gives no picture, tells why, and ends with exit code 3.
+/// gives no picture, tells why, and ends with exit code 3; one that --max-events or --max-wall stops gives that
+/// of the time reached.
 #[derive(Debug, Args)]
 #[command(after_help = after_help())]
 pub struct RenderArgs {
@@ -38,8 +41,12 @@ pub struct RenderArgs {
     #[arg(long, value_name = "S", value_parser = number::seconds, allow_negative_numbers = true, default_value = "1/60")]
     dt: f64,
 
-    /// Size of the picture in pixels
-    #[arg(long, value_name = "WxH", value_parser = number::size, default_value = "1600x1000")]
+    /// How to step; the methods other than exact do it in steps of --dt
+    #[arg(long, default_value = Method::Exact.name(), value_parser = method::parser())]
+    method: Method,
+
+    /// Size of the picture in pixels, at most 33 million of them
+    #[arg(long, value_name = "WxH", value_parser = picture_size, default_value = "1600x1000")]
     size: [u32; 2],
 
     /// The four views side by side, or one of them
@@ -57,6 +64,9 @@ pub struct RenderArgs {
     /// Size of text and lines
     #[arg(long, value_name = "FACTOR", value_parser = zoom, default_value = "1")]
     zoom: f64,
+
+    #[command(flatten)]
+    limits: LimitArgs,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
@@ -78,20 +88,23 @@ enum Colors {
 const GAP: u32 = 2;
 
 pub(super) fn render(args: &RenderArgs) -> Result<(), CliError> {
-    let unwritable = |error| CliError::unwritable(args.out.display(), &error);
+    let unwritable = |error| CliError::unwritable(&args.out, &error);
     if output::overwrites(&args.out, &args.scene) {
-        return Err(CliError::Usage(format!("--out would overwrite the scene {}", args.out.display())));
+        return Err(CliError::Usage(format!("--out would overwrite the scene {}", shown_path(&args.out))));
     }
+    let steps = steps(args)?;
+    let watchdog = args.limits.watchdog();
     let name = input::display_name(&args.scene);
-    let examined = input::open(&args.scene, Method::Exact)?;
+    let examined = input::open(&args.scene, args.method)?;
     for line in examined.lines(&name) {
         super::say(line);
     }
     let (Some(scene), Some(_)) = (examined.document.scene(), examined.simulation) else {
-        return Err(CliError::Scene(format!("{name} can't be drawn: it has errors")));
+        return Err(CliError::Scene(format!("{name} cannot be drawn: it has errors")));
     };
     check_writable(&args.out).map_err(unwritable)?;
-    let frame = frame_at(scene, args.at, args.dt).map_err(CliError::Fault)?;
+    let (frame, exceeded) = frame_after(&steps, scene, args).map_err(CliError::Fault)?;
+    drop(watchdog);
 
     let mut offscreen = Offscreen::new().map_err(|error| unusable(&error))?;
     let tiles = tiles(args, scene, &frame);
@@ -101,7 +114,8 @@ pub(super) fn render(args: &RenderArgs) -> Result<(), CliError> {
     let [r, g, b, _] = args.theme().palette().map_box.0;
     let picture = render_picture(&mut offscreen, args.size, [r, g, b, 255], &tiles)
         .map_err(|error| unusable(&error))?;
-    write_png(&args.out, picture.as_raw(), args.size).map_err(unwritable)
+    write_png(&args.out, picture.as_raw(), args.size).map_err(unwritable)?;
+    exceeded.map_or(Ok(()), |why| Err(CliError::Stopped { time: frame.time, why }))
 }
 
 fn unusable(error: &RenderError) -> CliError {
@@ -161,13 +175,33 @@ fn list(args: &RenderArgs, preset: &ViewPreset, scene: &Scene, frame: &Frame, si
     list
 }
 
-/// The picture of the simulation at a time, with the events of the Δt before.
-fn frame_at(scene: &Scene, at: f64, dt: f64) -> Result<Arc<Frame>, Fault> {
-    let mut runner = InlineRunner::new();
-    runner.send(RunCommand::Load(Box::new(scene.clone())));
+/// The commands that go to `--at`, the last of them the Δt whose contacts are shown.
+fn steps(args: &RenderArgs) -> Result<Vec<RunCommand>, CliError> {
+    let RenderArgs { at, dt, method, .. } = *args;
     let last = dt.min(at);
-    for dt in [at - last, last].into_iter().filter(|dt| *dt > 0.0) {
-        runner.send(RunCommand::Step { dt, count: 1 });
+    let mut parts = vec![(at - last, 1), (last, 1)];
+    if method.depends_on_dt() && at > dt {
+        let grid = SampleGrid::new(Some(dt), at).map_err(CliError::Usage)?;
+        let whole = u32::try_from(grid.steps - 1).unwrap_or(u32::MAX);
+        parts = vec![(dt, whole), (at - grid.time(grid.steps - 1), 1)];
+    }
+    let steps = parts.into_iter().filter(|(dt, count)| *dt > 0.0 && *count > 0);
+    Ok(steps.map(|(dt, count)| RunCommand::Step { dt, count }).collect())
+}
+
+/// The simulation after the steps, or where a limit ended it.
+fn frame_after(
+    steps: &[RunCommand],
+    scene: &Scene,
+    args: &RenderArgs,
+) -> Result<(Arc<Frame>, Option<Exceeded>), Fault> {
+    let mut runner = InlineRunner::limited(args.limits.limits());
+    runner.send(RunCommand::Method(args.method));
+    runner.send(RunCommand::Load(Box::new(scene.clone())));
+    for step in steps {
+        if runner.exceeded().is_none() {
+            runner.send(step.clone());
+        }
     }
     let frame = runner.frame();
     match (frame.state, &frame.fault) {
@@ -176,8 +210,22 @@ fn frame_at(scene: &Scene, at: f64, dt: f64) -> Result<Arc<Frame>, Fault> {
             let message = text.split_once(": ").map_or(text.as_str(), |(_, message)| message);
             Err(Fault { time: frame.time, message: message.to_owned() })
         }
-        _ => Ok(frame),
+        _ => Ok((frame, runner.exceeded())),
     }
+}
+
+/// Pixels of a picture at most, 7680×4320 and a little: each takes about 16 bytes while it is drawn and packed.
+const MOST_PIXELS: u64 = 1 << 25;
+
+fn picture_size(text: &str) -> Result<[u32; 2], String> {
+    let size = number::size(text)?;
+    let pixels = u64::from(size[0]) * u64::from(size[1]);
+    if pixels > MOST_PIXELS {
+        return Err(format!(
+            "{pixels} pixels are too many for the memory: at most {MOST_PIXELS}, such as 7680x4320"
+        ));
+    }
+    Ok(size)
 }
 
 /// Seconds; the start, which is no length of time, counts.

@@ -2,16 +2,18 @@
 
 use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 
+use super::limits::LimitArgs;
 use super::output::{self, is_stdout};
 use super::{CliError, input, interrupt, method, number};
-use crate::scene::check_writable;
+use crate::scene::{check_writable, escaped, shown_path, write_atomically};
 use crate::sim::Method;
 use crate::study::{
-    self, AXES, Control, KNOBS, StudyError, StudyReport as Report, StudySettings as Settings,
+    self, AXES, Control, KNOBS, Stop, StudyError, StudyReport as Report, StudySettings as Settings,
 };
 
 /// Compare the speed and the errors of every method on a scene
@@ -19,7 +21,8 @@ use crate::study::{
 /// Every method runs over every Δt (`exact` has no such axis: it runs over field tolerances where the scene
 /// has fields) and is compared with an independent reference: another integrator, another root finder, all
 /// pairs. Chaotic scenes are compared up to the horizon where the reference's own error estimate reaches
-/// --trusted-error, and by invariants beyond. Ctrl-C ends a study and reports what is done so far.
+/// --trusted-error, and by invariants beyond. Ctrl-C ends a study and reports what is done so far; so does
+/// --max-wall, while --max-events ends each run.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = long_help())]
 pub struct StudyArgs {
@@ -87,12 +90,16 @@ pub struct StudyArgs {
     /// Print the whole report as one JSON object to standard output
     #[arg(long)]
     json: bool,
+
+    #[command(flatten)]
+    limits: LimitArgs,
 }
 
 pub(super) fn study(args: &StudyArgs) -> Result<(), CliError> {
     let settings = args.settings();
     settings.check().map_err(|error| CliError::Usage(format!("--{error}")))?;
     refuse_clashing_outputs(args)?;
+    let watchdog = args.limits.watchdog();
     let name = input::display_name(&args.scene);
     let examined = input::open(&args.scene, Method::Exact)?;
     for line in examined.lines(&name) {
@@ -100,10 +107,10 @@ pub(super) fn study(args: &StudyArgs) -> Result<(), CliError> {
     }
     let (Some(scene), Some(_)) = (examined.document.scene(), &examined.simulation) else {
         let errors = examined.error_count();
-        return Err(CliError::Scene(format!("{name} can't be studied: {errors} error(s)")));
+        return Err(CliError::Scene(format!("{name} cannot be studied: {errors} error(s)")));
     };
     for (_, path) in args.outputs().filter(|(_, path)| !is_stdout(path)) {
-        check_writable(path).map_err(|error| CliError::unwritable(path.display(), &error))?;
+        check_writable(path).map_err(|error| CliError::unwritable(path, &error))?;
     }
 
     let bar = bar();
@@ -111,15 +118,37 @@ pub(super) fn study(args: &StudyArgs) -> Result<(), CliError> {
         bar.set_position((progress.part * PARTS) as u64);
         bar.set_message(progress.what.clone());
     };
-    let mut control = Control::new(interrupt::on_interrupt(), &mut show);
+    let interrupt = interrupt::on_interrupt();
+    let mut control = Control::new(interrupt, &mut show).until(args.limits.wall());
     let outcome = study::run(scene, &title_of(&args.scene), &settings, &mut control);
+    drop(watchdog);
     bar.finish_and_clear();
     let report = outcome.map_err(|error| match error {
         StudyError::Settings(error) => CliError::Usage(format!("--{error}")),
         StudyError::Scene(error) => CliError::Scene(error.to_string()),
     })?;
     write(args, &report)?;
-    if report.cancelled { Err(CliError::Cancelled) } else { Ok(()) }
+    early_end(args, &report, interrupt)
+}
+
+/// How a study that was not carried out in full ends.
+fn early_end(args: &StudyArgs, report: &Report, interrupt: &AtomicBool) -> Result<(), CliError> {
+    if report.cancelled && interrupt.load(Ordering::Relaxed) {
+        return Err(CliError::Cancelled);
+    }
+    if let (true, Some(wall)) = (report.cancelled, args.limits.max_wall) {
+        return Err(CliError::StudyStopped(format!(
+            "it has taken {wall} s of wall time, the longest allowed"
+        )));
+    }
+    let stopped = report.points.iter().filter(|point| point.stopped == Some(Stop::EventLimit)).count();
+    match (stopped, args.limits.max_events) {
+        (1.., Some(most)) => {
+            let runs = if stopped == 1 { "1 run has".into() } else { format!("{stopped} runs have") };
+            Err(CliError::StudyStopped(format!("{runs} had {most} events, the most allowed")))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// What to call the scene in the report: the file's name without its folder.
@@ -127,7 +156,7 @@ fn title_of(path: &Path) -> String {
     if is_stdout(path) {
         return "Standard input".into();
     }
-    path.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned())
+    path.file_name().map_or(String::new(), |name| escaped(&name.to_string_lossy()))
 }
 
 /// The bar counts thousandths of the study.
@@ -151,7 +180,7 @@ fn write(args: &StudyArgs, report: &Report) -> Result<(), CliError> {
     }
     if args.json {
         let text = serde_json::to_string(report);
-        let text = text.map_err(|error| CliError::unwritable("--json", &error.into()))?;
+        let text = text.map_err(|error| CliError::unprintable("--json", &error.into()))?;
         output::print(format!("{text}\n").as_bytes())
     } else if args.outputs().any(|(_, path)| is_stdout(path)) {
         Ok(())
@@ -164,7 +193,7 @@ fn write_text(path: &Path, text: &str) -> Result<(), CliError> {
     if is_stdout(path) {
         return output::print(text.as_bytes());
     }
-    std::fs::write(path, text).map_err(|error| CliError::unwritable(path.display(), &error))
+    write_atomically(path, text.as_bytes()).map_err(|error| CliError::unwritable(path, &error))
 }
 
 impl StudyArgs {
@@ -181,6 +210,7 @@ impl StudyArgs {
             event_window: self.event_window,
             reference_limit: self.reference_limit,
             run_limit: self.run_limit,
+            max_events: self.limits.max_events,
         }
     }
 
@@ -196,17 +226,13 @@ impl StudyArgs {
 fn refuse_clashing_outputs(args: &StudyArgs) -> Result<(), CliError> {
     let json = args.json.then_some(("--json", Path::new("-")));
     let all: Vec<_> = json.into_iter().chain(args.outputs()).collect();
-    for (nth, (option, path)) in all.iter().enumerate() {
-        let place = output::place(path);
-        if let Some((other, _)) = all[..nth].iter().find(|(_, path)| output::place(path) == place) {
-            let place = if is_stdout(path) { "standard output".into() } else { path.display().to_string() };
-            return Err(CliError::Usage(format!("{other} and {option} can't both write to {place}")));
+    output::refuse_shared(&all)?;
+    match args.outputs().find(|(_, path)| output::overwrites(path, &args.scene)) {
+        Some((option, path)) => {
+            Err(CliError::Usage(format!("{option} would overwrite the scene {}", shown_path(path))))
         }
-        if output::overwrites(path, &args.scene) {
-            return Err(CliError::Usage(format!("{option} would overwrite the scene {}", path.display())));
-        }
+        None => Ok(()),
     }
-    Ok(())
 }
 
 const EXAMPLES: &str = "Examples:\n  \

@@ -4,7 +4,7 @@
 use std::path::PathBuf;
 
 use super::Recovered;
-use crate::scene::NumberStyle;
+use crate::scene::{NumberStyle, shown_path};
 
 /// What replaces or closes the document once nothing can be lost.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -70,7 +70,7 @@ impl Question {
             Self::ChangedOnDisk { path, .. } => format!(
                 "Another program changed or removed {} after it was opened here. Saving would replace what \
                  is there now.",
-                path.display()
+                shown_path(path)
             ),
             Self::Recover(found) => format!(
                 "The last session ended without saving “{}” ({}). Restoring opens that work; the file itself \

@@ -7,7 +7,7 @@ use super::disk::{DiskStamp, has_changed};
 use super::history::History;
 use super::session::OpenFile;
 use super::{Notice, Outcome, Recovered, SAMPLES, Session};
-use crate::scene::Document;
+use crate::scene::{Document, escaped, shown_path};
 
 impl Session {
     /// Does `intent`, after asking when it would lose unsaved changes.
@@ -71,7 +71,7 @@ impl Session {
         let stamp = match readable(&path) {
             Ok(stamp) => stamp,
             Err(reason) => {
-                let text = format!("{} cannot be opened: {reason}", path.display());
+                let text = format!("{} cannot be opened: {reason}", shown_path(&path));
                 return self.notices.push(Notice::error(text));
             }
         };
@@ -79,7 +79,7 @@ impl Session {
         let unread =
             document.diagnostics().iter().find(|problem| problem.is_error() && problem.position.is_none());
         if let (None, Some(problem)) = (document.scene(), unread) {
-            let text = format!("{} cannot be opened: {}", path.display(), problem.message);
+            let text = format!("{} cannot be opened: {}", shown_path(&path), problem.message);
             return self.notices.push(Notice::error(text));
         }
         let errors = document.diagnostics().iter().filter(|problem| problem.is_error()).count();
@@ -148,8 +148,9 @@ impl Session {
     pub(super) fn save_as(&mut self, then: Option<Intent>) {
         self.after_save = then;
         let directory = self.file.path.as_deref().and_then(Path::parent).map(Path::to_owned);
-        let title = &self.file.title;
-        let file_name = if title.contains('.') { title.clone() } else { format!("{title}.xml") };
+        let name = self.file.path.as_deref().and_then(Path::file_name);
+        let title = name.map_or(self.file.title.clone(), |name| name.to_string_lossy().into_owned());
+        let file_name = if title.contains('.') { title } else { format!("{title}.xml") };
         self.requests.push(Request::ChooseSavePath { directory, file_name });
     }
 
@@ -165,7 +166,7 @@ impl Session {
 
     fn write(&mut self, path: &Path, then: Option<Intent>) {
         if let Err(err) = self.document().save(path) {
-            let text = format!("{} cannot be saved: {err}", path.display());
+            let text = format!("{} cannot be saved: {err}", shown_path(path));
             return self.notices.push(Notice::error(text));
         }
         self.history.mark_saved();
@@ -219,7 +220,7 @@ impl OpenFile {
     }
 
     fn at(path: &Path, stamp: Option<DiskStamp>) -> Self {
-        let title = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+        let title = escaped(&path.file_name().unwrap_or(path.as_os_str()).to_string_lossy());
         Self { path: Some(path.to_owned()), title, stamp, reported_change: false }
     }
 }

@@ -20,6 +20,7 @@ mod label;
 mod live;
 mod notice;
 mod palette;
+mod path_text;
 mod playback;
 mod problems;
 mod recovered;

@@ -2,6 +2,7 @@
 
 use super::catalog::COMMANDS;
 use super::{Command, SAMPLES, SampleGroup, Session};
+use crate::scene::shown_path;
 use crate::view::OVERLAYS;
 
 /// One line of the command palette.
@@ -36,7 +37,7 @@ fn entries(session: &Session) -> impl Iterator<Item = PaletteEntry> {
     });
     let recent = session.settings().recent.iter().enumerate().map(|(index, path)| {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
-        entry(Command::OpenRecent(index), format!("Open recent: {name}"), path.display().to_string())
+        entry(Command::OpenRecent(index), format!("Open recent: {name}"), shown_path(path))
     });
     let overlays = OVERLAYS.iter().enumerate().map(|(index, overlay)| {
         entry(Command::ToggleOverlay(index), format!("Overlay: {}", overlay.label), overlay.help.to_owned())

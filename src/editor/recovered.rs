@@ -7,6 +7,7 @@ use std::time::SystemTime;
 use serde::{Deserialize, Serialize};
 
 use super::disk::DiskStamp;
+use super::path_text;
 
 /// Unsaved work of a run that has ended.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -15,6 +16,7 @@ pub struct Recovered {
     #[serde(skip)]
     base: PathBuf,
     /// The user's file; `None` for work that never had one.
+    #[serde(with = "path_text::optional", default)]
     pub(super) path: Option<PathBuf>,
     title: String,
     pub(super) stamp: Option<DiskStamp>,

@@ -2,12 +2,12 @@
 //! run still lives.
 
 use std::fs::File;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Instant, SystemTime};
 
 use super::Storage;
 use super::recovered::{Recovered, remove_files};
-use super::settings::write_atomically;
+use crate::scene::write_private;
 
 /// This run's own copy.
 pub(super) struct Recovery {
@@ -35,11 +35,11 @@ impl Recovery {
     fn own_base(&mut self) -> std::io::Result<Option<PathBuf>> {
         let Some(folder) = &self.folder else { return Ok(None) };
         if self.own.is_none() {
-            std::fs::create_dir_all(folder)?;
+            create_private_folder(folder)?;
             let nanos =
                 SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default().as_nanos();
             let base = folder.join(format!("{}-{nanos}", std::process::id()));
-            let lock = File::create(base.with_extension("lock"))?;
+            let lock = create_private(&base.with_extension("lock"))?;
             // where locks are not supported the worst is that two runs offer the same work
             let _ = lock.try_lock();
             self.own = Some(OwnFiles { base, _lock: lock });
@@ -51,8 +51,8 @@ impl Recovery {
     pub(super) fn write(&mut self, document: &[u8], about: &Recovered) -> std::io::Result<()> {
         let Some(base) = self.own_base()? else { return Ok(()) };
         // the description last: without it the copy is not offered
-        write_atomically(&base.with_extension("xml"), document)?;
-        write_atomically(&base.with_extension("json"), &serde_json::to_vec(about)?)
+        write_private(&base.with_extension("xml"), document)?;
+        write_private(&base.with_extension("json"), &serde_json::to_vec(about)?)
     }
 
     /// Removes this run's copy: there is nothing left to recover.
@@ -62,4 +62,23 @@ impl Recovery {
         }
         self.copied = None;
     }
+}
+
+/// Unsaved work may be secret where the user's own file is: nobody else reads it.
+fn create_private_folder(folder: &Path) -> std::io::Result<()> {
+    std::fs::create_dir_all(folder)?;
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt as _;
+        std::fs::set_permissions(folder, std::fs::Permissions::from_mode(0o700))?;
+    }
+    Ok(())
+}
+
+fn create_private(path: &Path) -> std::io::Result<File> {
+    let mut options = File::options();
+    options.write(true).create(true).truncate(true);
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+    options.open(path)
 }

@@ -1,9 +1,11 @@
 //! What outlives a run: where it is kept, recent files and the last Δt.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
+
+use super::path_text;
+use crate::scene::write_private;
 
 /// Most recent files remembered: what a menu shows without scrolling.
 const MAX_RECENT: usize = 10;
@@ -46,6 +48,7 @@ impl Storage {
 #[serde(default)]
 pub struct EditorSettings {
     /// Newest first.
+    #[serde(with = "path_text::list")]
     pub recent: Vec<PathBuf>,
     /// Δt as typed last.
     pub dt: Option<String>,
@@ -60,7 +63,8 @@ impl EditorSettings {
 
     pub(super) fn store(&self, storage: &Storage) -> std::io::Result<()> {
         let Some(path) = settings_path(storage) else { return Ok(()) };
-        write_atomically(&path, serde_json::to_string_pretty(self)?.as_bytes())
+        std::fs::create_dir_all(path.parent().unwrap_or(Path::new(".")))?;
+        write_private(&path, serde_json::to_string_pretty(self)?.as_bytes())
     }
 
     pub(super) fn add_recent(&mut self, path: &Path) {
@@ -72,15 +76,4 @@ impl EditorSettings {
 
 fn settings_path(storage: &Storage) -> Option<PathBuf> {
     storage.config.as_ref().map(|folder| folder.join("settings.json"))
-}
-
-/// Writes a file so that a crash leaves the old one or the new one; makes its folder when missing.
-pub(super) fn write_atomically(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let folder = path.parent().unwrap_or(Path::new("."));
-    std::fs::create_dir_all(folder)?;
-    let mut file = tempfile::NamedTempFile::new_in(folder)?;
-    file.write_all(bytes)?;
-    file.as_file().sync_all()?;
-    file.persist(path)?;
-    Ok(())
 }

@@ -21,6 +21,7 @@ use super::viewport::{self, Canvas, Views};
 use super::{menu, shortcuts, start, status, strip, theme};
 use crate::editor::{Action, Command, Notice, Outcome, Request, Session, Storage};
 use crate::record::Runner;
+use crate::scene::shown_path;
 
 /// What an [`App`] is made of; tests choose other parts than the program does.
 pub struct Parts {
@@ -161,7 +162,8 @@ impl App {
         if focused {
             self.outbox.act(Action::LookAtDisk);
         }
-        if closing && self.session.is_dirty() {
+        // a window for a script keeps nothing, so there is nothing to ask about
+        if closing && self.session.is_dirty() && !self.forgetful {
             ctx.send_viewport_cmd(ViewportCommand::CancelClose);
             self.outbox.command(Command::Quit);
         }
@@ -283,7 +285,7 @@ impl App {
 
     fn carry_out_message(&mut self, ctx: &Context, message: Message) {
         match message {
-            Message::Do(Action::Command(command)) => self.execute(ctx, command),
+            Message::Do(Action::Command(command)) => drop(self.execute(ctx, command)),
             Message::Do(action) => drop(self.session.perform(action)),
             Message::Frame(keys) => {
                 self.with_views(ctx, |views, context| views.frame(context, Some(&keys), None));
@@ -304,16 +306,17 @@ impl App {
                 self.dialogs.ask_for_export(ctx, export, file_name);
             }
             Message::Export(export, path) => match self.accuracy.write(export, &path) {
-                Ok(()) => self.toasts.add(Notice::info(format!("Wrote {}", path.display()))),
+                Ok(()) => self.toasts.add(Notice::info(format!("Wrote {}", shown_path(&path)))),
                 Err(problem) => self.toasts.add(Notice::error(problem)),
             },
         }
     }
 
     /// First the session; what it does not know is the window's.
-    pub(super) fn execute(&mut self, ctx: &Context, command: Command) {
-        if self.session.perform(Action::Command(command)) != Outcome::NotMine {
-            return;
+    pub(super) fn execute(&mut self, ctx: &Context, command: Command) -> Outcome {
+        let outcome = self.session.perform(Action::Command(command));
+        if outcome != Outcome::NotMine {
+            return outcome;
         }
         match command {
             Command::SwitchColors => {
@@ -334,10 +337,11 @@ impl App {
                 debug_assert!(known, "nobody knows {command:?}");
             }
         }
+        Outcome::Done
     }
 
-    pub(super) fn perform(&mut self, action: Action) {
-        self.session.perform(action);
+    pub(super) fn perform(&mut self, action: Action) -> Outcome {
+        self.session.perform(action)
     }
 
     /// As the button of the Accuracy panel does.

@@ -11,9 +11,10 @@ use egui::{Context, ViewportCommand};
 use super::app::{App, Parts, TIGHT, Tab};
 use super::dialogs::NativeFileDialogs;
 use super::error::GuiError;
-use crate::editor::{Action, COMMANDS, Command, Storage};
+use crate::editor::{Action, COMMANDS, Command, Outcome, Storage};
 use crate::record::ThreadRunner;
 use crate::render::write_png;
+use crate::scene::{check_writable, same_file, shown_path};
 use crate::sim::Method;
 use crate::view::OVERLAYS;
 
@@ -67,6 +68,7 @@ pub fn run(options: Options) -> Result<Report, GuiError> {
     let called = Instant::now();
     let report = Arc::new(Mutex::new(Report::default()));
     let script = Script::new(&options, called, report.clone())?;
+    check_screenshot(&options)?;
     let scripted = options.screenshot.is_some() || options.bench_orbit.is_some();
     let size = options.window_size.unwrap_or([1360, 860]).map(|side| side as f32);
     let viewport = egui::ViewportBuilder::default()
@@ -108,10 +110,22 @@ pub fn run(options: Options) -> Result<Report, GuiError> {
     }
 }
 
+/// Refuses a picture that cannot be written or would replace the scene, before the window opens.
+fn check_screenshot(options: &Options) -> Result<(), GuiError> {
+    let Some(path) = &options.screenshot else { return Ok(()) };
+    if options.scene.as_ref().is_some_and(|scene| same_file(path, scene)) {
+        let text = format!("--screenshot would overwrite the scene {}", shown_path(path));
+        return Err(GuiError::Script(text));
+    }
+    check_writable(path)
+        .map_err(|error| GuiError::Script(format!("cannot write {}: {error}", shown_path(path))))
+}
+
 /// What a script does with the window, turn by turn.
 pub(super) struct Script {
     called: Instant,
-    steps: VecDeque<Step>,
+    /// Each with its text.
+    steps: VecDeque<(Step, String)>,
     screenshot: Option<PathBuf>,
     bench: Option<Bench>,
     wait_until: Option<Instant>,
@@ -149,11 +163,8 @@ impl Script {
         let mut steps = VecDeque::new();
         let texts = options.steps.iter().flat_map(|steps| steps.split(',')).map(str::trim);
         for text in texts.filter(|text| !text.is_empty()) {
-            let (text, count) = text.rsplit_once('*').unwrap_or((text, "1"));
-            let unknown = || GuiError::Script(format!("there is no step `{text}`"));
-            let count: usize = count.parse().map_err(|_| unknown())?;
-            let step = step(text).ok_or_else(unknown)?;
-            steps.extend(std::iter::repeat_n(step, count.min(100_000)));
+            let (step, count) = counted_step(text).map_err(GuiError::Script)?;
+            steps.extend(std::iter::repeat_n((step, text.to_owned()), count));
         }
         let bench = options.bench_orbit.map(|frames_left| Bench {
             frames_left,
@@ -166,6 +177,21 @@ impl Script {
 
     fn tell(&self, change: impl FnOnce(&mut Report)) {
         change(&mut self.report.lock().unwrap_or_else(PoisonError::into_inner));
+    }
+}
+
+/// A step and how often it is taken: `id*count`.
+fn counted_step(text: &str) -> Result<(Step, usize), String> {
+    /// More than anyone waits for.
+    const MOST: usize = 100_000;
+    let (name, count) = match text.rsplit_once('*') {
+        Some((name, count)) => (name.trim(), Some(count.trim())),
+        None => (text, None),
+    };
+    let step = step(name).ok_or_else(|| format!("--do: there is no step `{name}`"))?;
+    match count.map_or(Ok(1), str::parse) {
+        Ok(count @ 1..=MOST) => Ok((step, count)),
+        _ => Err(format!("--do {text}: the count after * must be a whole number from 1 to {MOST}")),
     }
 }
 
@@ -220,8 +246,14 @@ impl App {
             ctx.request_repaint();
             return true;
         }
-        if let Some(step) = script.steps.pop_front() {
-            let pause = self.take_step(ctx, &step);
+        if let Some((step, text)) = script.steps.pop_front() {
+            if let Err(reason) = self.take_step(ctx, &step) {
+                script.tell(|report| report.failure = Some(format!("--do {text}: {reason}")));
+                ctx.send_viewport_cmd(ViewportCommand::Close);
+                return false;
+            }
+            // the simulation may have got something to do
+            let pause = matches!(step, Step::Command(_));
             script.wait_until = pause.then(|| Instant::now() + PAUSE);
             if script.steps.is_empty() {
                 script.wait_until = Some(Instant::now() + 3 * PAUSE);
@@ -249,13 +281,16 @@ impl App {
         false
     }
 
-    /// Whether the simulation may have got something to do.
-    fn take_step(&mut self, ctx: &Context, step: &Step) -> bool {
-        match step {
+    /// The error says why the step cannot be taken.
+    fn take_step(&mut self, ctx: &Context, step: &Step) -> Result<(), String> {
+        let outcome = match step {
             Step::Command(command) => self.execute(ctx, *command),
             Step::Dt(text) => self.perform(Action::SetDt(text.clone())),
             Step::Method(method) => self.perform(Action::SetMethod(*method)),
-            Step::Tab(tab) => self.show_tab(*tab),
+            Step::Tab(tab) => {
+                self.show_tab(*tab);
+                Outcome::Done
+            }
             Step::Select(name) => {
                 let key = self.session().scene().and_then(|scene| {
                     let body =
@@ -263,15 +298,24 @@ impl App {
                     let force = || scene.forces.iter().find(|force| force.label == *name);
                     body.map(|body| body.key).or_else(|| force().map(|force| force.key))
                 });
-                self.perform(Action::AddToSelection(key.into_iter().collect()));
+                let key = key.ok_or("no body or force has this name or ID")?;
+                self.perform(Action::AddToSelection(vec![key]))
             }
             Step::Event(index) => {
-                let event = self.session().frame().events.get(*index).cloned();
-                self.perform(Action::ShowEvent(event));
+                let events = &self.session().frame().events;
+                let missing = || format!("there are {} events in this Δt, counted from 0", events.len());
+                let event = events.get(*index).cloned().ok_or_else(missing)?;
+                self.perform(Action::ShowEvent(Some(event)))
             }
-            Step::Study => self.run_study(ctx),
+            Step::Study => {
+                self.run_study(ctx);
+                Outcome::Done
+            }
+        };
+        match outcome {
+            Outcome::Refused(reason) => Err(reason),
+            _ => Ok(()),
         }
-        matches!(step, Step::Command(_))
     }
 
     /// Turns the first view; `true` when all is measured.
@@ -321,7 +365,7 @@ fn take_picture(ctx: &Context, path: PathBuf, report: Arc<Mutex<Report>>) {
         let written = write_png(&path, picture.as_raw(), [width, height]);
         if let Err(error) = written {
             let mut report = report.lock().unwrap_or_else(PoisonError::into_inner);
-            report.failure = Some(format!("cannot write {}: {error}", path.display()));
+            report.failure = Some(format!("cannot write {}: {error}", shown_path(&path)));
         }
         after.send_viewport_cmd(ViewportCommand::Close);
     });
@@ -339,5 +383,15 @@ mod tests {
         assert_eq!(step("tab:problems"), Some(Step::Tab(Tab::Problems)));
         assert_eq!(step("fly"), None);
         assert_eq!(step("overlay:nothing"), None);
+        assert_eq!(counted_step("next_event*3"), Ok((Step::Command(Command::NextEvent), 3)));
+        for (text, reason) in [
+            ("next_event*-1", "count"),
+            ("next_event*0", "count"),
+            ("next_event*x", "count"),
+            ("fly*2", "`fly`"),
+        ] {
+            let error = counted_step(text).unwrap_err();
+            assert!(error.contains(reason), "{text}: {error}");
+        }
     }
 }

@@ -4,6 +4,7 @@ use egui::{Button, Ui};
 
 use super::context::AppContext;
 use crate::editor::{COMMANDS, Command, CommandInfo, Menu, SAMPLES, SampleGroup};
+use crate::scene::shown_path;
 use crate::view::OVERLAYS;
 
 /// Overlays of the active view and whether drags snap, for the marks in the View menu.
@@ -78,7 +79,7 @@ fn files(ui: &mut Ui, context: &AppContext<'_>) {
 pub fn recent_files(ui: &mut Ui, context: &AppContext<'_>) {
     for (index, path) in context.session.settings().recent.iter().enumerate() {
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-        let response = ui.button(name.as_ref()).on_hover_text(path.display().to_string());
+        let response = ui.button(name.as_ref()).on_hover_text(shown_path(path));
         if response.clicked() {
             context.outbox.command(Command::OpenRecent(index));
             ui.close();

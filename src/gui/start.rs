@@ -4,6 +4,7 @@ use egui::{Align2, RichText, Ui};
 
 use super::context::AppContext;
 use crate::editor::{Command, SAMPLES, SampleGroup, Session};
+use crate::scene::shown_path;
 
 /// Whether there is nothing to lose and nothing to see yet.
 pub fn is_wanted(session: &Session) -> bool {
@@ -69,7 +70,7 @@ fn recent(ui: &mut Ui, context: &AppContext<'_>) {
     ui.label(RichText::new("Recent").strong());
     for (index, path) in recent.iter().take(5).enumerate() {
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-        if ui.link(name.as_ref()).on_hover_text(path.display().to_string()).clicked() {
+        if ui.link(name.as_ref()).on_hover_text(shown_path(path)).clicked() {
             context.outbox.command(Command::OpenRecent(index));
         }
     }

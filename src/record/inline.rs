@@ -4,13 +4,15 @@ use std::sync::Arc;
 
 use super::publish::{Pace, frame_of};
 use super::recorder::RunRecorder;
-use super::{Frame, RunCommand, RunState, Runner};
+use super::{Exceeded, Frame, Limits, RunCommand, RunState, Runner, Watch};
 
 /// Runs on the caller's thread. While it plays, [`Runner::tick`] is its clock.
 #[derive(Debug, Default)]
 pub struct InlineRunner {
     recorder: RunRecorder,
     frame: Arc<Frame>,
+    watch: Option<Watch>,
+    exceeded: Option<Exceeded>,
 }
 
 impl InlineRunner {
@@ -18,8 +20,31 @@ impl InlineRunner {
         Self::default()
     }
 
+    /// A runner that gives a command up where a limit is reached; its time begins now.
+    pub fn limited(limits: Limits) -> Self {
+        Self { watch: Some(Watch::start(limits)), ..Self::default() }
+    }
+
+    /// The limit that was reached, if one was.
+    pub fn exceeded(&self) -> Option<Exceeded> {
+        self.exceeded
+    }
+
     fn settle(&mut self) {
-        while self.recorder.work(u32::MAX) {}
+        match self.watch {
+            // One event, or a bounded amount of work, between two looks.
+            Some(watch) => {
+                while self.recorder.work(1) {
+                    let events = self.recorder.run.as_ref().map_or(0, |run| run.last_event);
+                    self.exceeded = watch.exceeded(events);
+                    if self.exceeded.is_some() {
+                        self.recorder.command(RunCommand::Pause);
+                        break;
+                    }
+                }
+            }
+            None => while self.recorder.work(u32::MAX) {},
+        }
         self.frame = Arc::new(frame_of(&mut self.recorder, self.frame.revision + 1, Pace::default()));
     }
 }

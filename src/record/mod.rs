@@ -6,6 +6,7 @@ mod frame;
 mod grid;
 mod history;
 mod inline;
+mod limits;
 mod publish;
 mod recorder;
 mod replay;
@@ -17,6 +18,7 @@ use std::sync::Arc;
 pub use command::RunCommand;
 pub use frame::{BodyFrame, EventRow, Frame, Jump, RunState};
 pub use inline::InlineRunner;
+pub use limits::{Exceeded, Limits, Watch, advance};
 pub use thread::ThreadRunner;
 
 /// Something that runs a simulation on command. The application uses a thread, so that no scene can

@@ -1,5 +1,6 @@
 //! The threaded runner: the simulation has a thread of its own, so that no scene can freeze the window.
 
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, TryRecvError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
@@ -13,11 +14,15 @@ use super::{Frame, RunCommand, RunState, Runner};
 const SLICE: u32 = 64;
 /// Time between two frames while it works or plays.
 const FRAME_TIME: Duration = Duration::from_millis(16);
+/// How long closing waits for the thread: many slices, and less than a person notices.
+const PATIENCE: Duration = Duration::from_millis(200);
 
 /// Runs on a thread of its own until it is dropped. A frame is replaced as a whole, never changed.
 #[derive(Debug)]
 pub struct ThreadRunner {
     commands: Option<Sender<RunCommand>>,
+    /// Ends the thread before it looks at what still waits.
+    closing: Arc<AtomicBool>,
     frame: Arc<Mutex<Arc<Frame>>>,
     thread: Option<JoinHandle<()>>,
 }
@@ -27,11 +32,12 @@ impl ThreadRunner {
     pub fn new(on_frame: impl Fn() + Send + 'static) -> std::io::Result<Self> {
         let (commands, received) = channel();
         let frame = Arc::new(Mutex::new(Arc::new(Frame::default())));
-        let shared = frame.clone();
+        let closing = Arc::new(AtomicBool::new(false));
+        let (shared, ends) = (frame.clone(), closing.clone());
         let thread = std::thread::Builder::new()
             .name("simulation".into())
-            .spawn(move || Worker::new(received, shared, Box::new(on_frame)).run())?;
-        Ok(Self { commands: Some(commands), frame, thread: Some(thread) })
+            .spawn(move || Worker::new(received, shared, Box::new(on_frame)).run(&ends))?;
+        Ok(Self { commands: Some(commands), closing, frame, thread: Some(thread) })
     }
 }
 
@@ -51,10 +57,15 @@ impl Runner for ThreadRunner {
 }
 
 impl Drop for ThreadRunner {
+    /// Waits for the thread to end, but not for long: it may be inside one call that takes minutes, and whoever
+    /// closes the window wants to be done. The thread then ends by itself after that call, or with the process.
     fn drop(&mut self) {
+        self.closing.store(true, Ordering::Relaxed);
         self.commands = None;
-        if let Some(thread) = self.thread.take() {
-            let _ = thread.join();
+        let Some(thread) = self.thread.take() else { return };
+        let since = Instant::now();
+        while !thread.is_finished() && since.elapsed() < PATIENCE {
+            std::thread::sleep(Duration::from_millis(1));
         }
     }
 }
@@ -98,10 +109,14 @@ impl Worker {
         Self { commands, shared, on_frame, recorder: RunRecorder::default(), revision: 0, clock }
     }
 
-    fn run(mut self) {
+    fn run(mut self, closing: &AtomicBool) {
         let mut busy = false;
         loop {
-            let received = match self.receive(busy) {
+            let received = self.receive(busy);
+            if closing.load(Ordering::Relaxed) {
+                return;
+            }
+            let received = match received {
                 Received::Command(command) => {
                     self.recorder.command(command);
                     true

@@ -1,4 +1,4 @@
-//! Why a picture can't be drawn.
+//! Why a picture cannot be drawn.
 
 /// Every failure of this layer.
 #[derive(Debug, thiserror::Error)]
@@ -12,10 +12,10 @@ pub enum RenderError {
     /// The driver refused something.
     #[error("OpenGL: {0}")]
     Gl(String),
-    /// The font that comes with the program can't be read.
-    #[error("the built-in font can't be read")]
+    /// The font that comes with the program cannot be read.
+    #[error("the built-in font cannot be read")]
     Font,
-    #[error("a picture of {0}×{1} pixels can't be drawn; the driver's limit is {2}×{2}")]
+    #[error("a picture of {0}×{1} pixels cannot be drawn; the driver's limit is {2}×{2}")]
     Size(u32, u32, u32),
 }
 

@@ -51,7 +51,7 @@ impl Gl {
         }
     }
 
-    /// What lies beyond the near and far limit is drawn at the limit and not cut off. OpenGL ES can't.
+    /// What lies beyond the near and far limit is drawn at the limit and not cut off. OpenGL ES cannot.
     pub fn clamp_depth(&self, on: bool) {
         if !self.0.version().is_embedded {
             self.switch(glow::DEPTH_CLAMP, on);

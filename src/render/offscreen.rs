@@ -38,7 +38,7 @@ impl Offscreen {
         Err(RenderError::NoContext(why))
     }
 
-    #[allow(unsafe_code, reason = "glutin can't know that the display outlives what is made from it")]
+    #[allow(unsafe_code, reason = "glutin cannot know that the display outlives what is made from it")]
     fn on(device: &Device) -> Result<Self, Box<dyn std::error::Error>> {
         let template = ConfigTemplateBuilder::new().with_surface_type(ConfigSurfaceTypes::empty()).build();
         let attributes = ContextAttributesBuilder::new()

@@ -91,7 +91,7 @@ impl Passes {
     }
 
     fn draw_spheres(&self, view: &View) {
-        // Silhouettes come from ray casting, which multisampling can't see: their coverage is in alpha.
+        // Silhouettes come from ray casting, which multisampling cannot see: their coverage is in alpha.
         self.gl().cover_by_alpha(true);
         self.draw_instances(&self.programs.sphere, &self.spheres, view, 0.0, SOLID);
         self.gl().cover_by_alpha(false);

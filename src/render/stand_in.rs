@@ -17,7 +17,7 @@ impl StandIn {
         Ok(Self { framebuffer, color, depth: gl.create_renderbuffer()?, size: [0, 0], gl })
     }
 
-    /// Makes it this large, if it isn't, and binds it.
+    /// Makes it this large, if it is not, and binds it.
     pub fn bind(&mut self, size: [u32; 2]) -> Result<(), RenderError> {
         if self.size != size {
             self.size = [0, 0];

@@ -38,7 +38,7 @@ impl ViewTarget {
         revision != 0 && self.revision == revision && self.size == size
     }
 
-    /// Makes the framebuffer this large, if it isn't; its content is then lost.
+    /// Makes the framebuffer this large, if it is not; its content is then lost.
     pub fn resize(&mut self, size: [u32; 2]) -> Result<(), RenderError> {
         if self.size == size {
             return Ok(());

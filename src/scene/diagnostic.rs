@@ -1,6 +1,7 @@
 //! A problem of a scene file: where it is, what is wrong, and the way out.
 
 use std::fmt;
+use std::path::Path;
 
 /// Whether a problem keeps the scene from running.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -14,7 +15,7 @@ pub enum Severity {
 pub struct Diagnostic {
     pub severity: Severity,
     /// 1-based line and column (in characters) in the source; `None` where there is no such place
-    /// (a file that can't be read, an element that was added and not saved yet).
+    /// (a file that cannot be read, an element that was added and not saved yet).
     pub position: Option<(u32, u32)>,
     /// Path of the element, such as `/PolyPhysicsXml/Primitives/SoftObject[5853]/Sphere`; may be empty.
     pub path: String,
@@ -45,12 +46,12 @@ impl fmt::Display for Diagnostic {
         if let Some((line, column)) = self.position {
             write!(f, "{line}:{column}: ")?;
         }
-        write!(f, "{}: {}", self.severity, self.message)?;
+        write!(f, "{}: {}", self.severity, escaped(&self.message))?;
         if !self.path.is_empty() {
-            write!(f, " ({})", self.path)?;
+            write!(f, " ({})", escaped(&self.path))?;
         }
         if !self.hint.is_empty() {
-            write!(f, "; {}", self.hint)?;
+            write!(f, "; {}", escaped(&self.hint))?;
         }
         Ok(())
     }
@@ -65,11 +66,36 @@ pub(super) fn shown(text: &str) -> String {
             shown.push('…');
             break;
         }
-        if c.is_control() {
-            shown.extend(c.escape_default());
-        } else {
-            shown.push(c);
-        }
+        push_escaped(c, &mut shown);
     }
     shown
+}
+
+/// A text fit for one line of a message: what steers a terminal or reorders the line is written as an escape
+/// such as `\u{1b}`.
+pub fn escaped(text: &str) -> String {
+    let mut shown = String::with_capacity(text.len());
+    text.chars().for_each(|c| push_escaped(c, &mut shown));
+    shown
+}
+
+/// The name of a file for a message, [`escaped`].
+pub fn shown_path(path: &Path) -> String {
+    escaped(&path.display().to_string())
+}
+
+fn push_escaped(c: char, text: &mut String) {
+    if is_invisible(c) {
+        text.extend(c.escape_default());
+    } else {
+        text.push(c);
+    }
+}
+
+/// Characters that are not seen as themselves: control characters, line and paragraph separators, marks that
+/// change the direction of the text around them, and those of no width that hide differences.
+fn is_invisible(c: char) -> bool {
+    c.is_control()
+        || matches!(c, '\u{AD}' | '\u{61C}' | '\u{180E}' | '\u{200B}'..='\u{200F}' | '\u{2028}'..='\u{202E}'
+            | '\u{2060}'..='\u{206F}' | '\u{FEFF}' | '\u{FFF9}'..='\u{FFFB}' | '\u{E0000}'..='\u{E0FFF}')
 }

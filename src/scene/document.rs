@@ -68,7 +68,7 @@ impl Document {
         }
     }
 
-    /// Reads a file. A file that can't be read gives a diagnostic without a position.
+    /// Reads a file. A file that cannot be read gives a diagnostic without a position.
     pub fn open(path: &Path) -> Self {
         match read_file(path) {
             Ok(bytes) => Self::from_bytes(&bytes),

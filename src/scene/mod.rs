@@ -1,5 +1,6 @@
 //! The document: what a scene file says, how it is read, edited and written. Knows nothing of time or pixels.
 
+mod declaration;
 mod diagnostic;
 mod document;
 mod edit;
@@ -19,10 +20,12 @@ mod write;
 
 use diagnostic::shown;
 
-pub use diagnostic::{Diagnostic, Severity};
+pub use diagnostic::{Diagnostic, Severity, escaped, shown_path};
 pub use document::Document;
 pub use edit::{BodyChange, Edit, EditError, Edited, ForceChange};
 pub use number::NumberStyle;
 pub use params::{PARAMS, ParamInfo, SimParams};
-pub use save::{canonical_target, check_writable, write_atomically};
+pub use save::{
+    FileId, FileStamp, canonical_target, check_writable, same_file, write_atomically, write_private,
+};
 pub use types::{Body, Force, ForceKind, Map, Motion, NodeKey, Scene, Shape, rotation_matrix};

@@ -7,7 +7,10 @@ use quick_xml::Reader;
 use quick_xml::errors::IllFormedError;
 use quick_xml::events::Event;
 
-use super::rules::{MAX_DEPTH, MAX_NODES, is_name, is_xml_char};
+use super::declaration;
+use super::rules::{
+    FREE_PIECES, LEAST_BYTES_PER_ELEMENT, LEAST_BYTES_PER_PIECE, MAX_DEPTH, MAX_NODES, is_name, is_xml_char,
+};
 use super::shown;
 use super::tree::{Child, Children, Element, Keys, NO_PLACE, Text, tag};
 
@@ -62,14 +65,15 @@ struct Parser<'a> {
     open: Vec<Open<'a>>,
     top: Vec<Child>,
     nodes: usize,
+    elements: usize,
     /// Of the attributes of one tag.
     names: Vec<&'a str>,
 }
 
 impl<'a> Parser<'a> {
     fn new(source: &'a str, keys: &'a Keys, whole: bool) -> Self {
-        let (open, top, nodes, names) = Default::default();
-        Self { source, keys, whole, has_root: false, open, top, nodes, names }
+        let (open, top, names) = Default::default();
+        Self { source, keys, whole, has_root: false, open, top, nodes: 0, elements: 0, names }
     }
 
     fn run(&mut self) -> Result<(), ParseFault> {
@@ -93,10 +97,8 @@ impl<'a> Parser<'a> {
     fn event(&mut self, event: &Event<'_>, start: usize, end: usize) -> Result<(), ParseFault> {
         let piece = self.source.get(start..end).unwrap_or("");
         self.nodes += 1;
-        if self.nodes > MAX_NODES {
-            let message = format!("there are more than {MAX_NODES} pieces of XML");
-            return Err(self.fault(start, &message, "divide the scene"));
-        }
+        self.elements += usize::from(matches!(event, Event::Start(_) | Event::Empty(_)));
+        self.check_amount(start)?;
         match event {
             Event::Start(_) => self.start(start, piece)?,
             Event::Empty(_) => {
@@ -119,8 +121,14 @@ impl<'a> Parser<'a> {
             }
             Event::PI(content) => {
                 let target = content.target();
-                if !is_name(target) || target.eq_ignore_ascii_case("xml") {
-                    return Err(self.fault(start, "a processing instruction has no valid name", ""));
+                if target.eq_ignore_ascii_case("xml") {
+                    let message = format!("a processing instruction is called {target}, which XML reserves");
+                    let hint = "the declaration is written <?xml …?> at the very start; remove this one";
+                    return Err(self.fault(start, &message, hint));
+                }
+                if !is_name(target) {
+                    let hint = "an instruction is written <?name …?>";
+                    return Err(self.fault(start, "a processing instruction has no valid name", hint));
                 }
                 self.push(start, end);
             }
@@ -129,6 +137,9 @@ impl<'a> Parser<'a> {
                     let hint = "move <?xml …?> to the very start of the file, or remove it";
                     return Err(self.fault(start, "an XML declaration stands inside the file", hint));
                 }
+                if let Err(bad) = declaration::check(piece) {
+                    return Err(self.fault(start + bad.at, &bad.message, bad.hint));
+                }
                 self.push(start, end);
             }
             Event::DocType(_) => {
@@ -136,6 +147,20 @@ impl<'a> Parser<'a> {
                 return Err(self.fault(start, "a DOCTYPE is not allowed", hint));
             }
             Event::Eof => {}
+        }
+        Ok(())
+    }
+
+    /// Refuses what would take too much memory, also in proportion to the file.
+    fn check_amount(&self, at: usize) -> Result<(), ParseFault> {
+        if self.nodes > MAX_NODES {
+            let message = format!("there are more than {MAX_NODES} pieces of XML");
+            return Err(self.fault(at, &message, "divide the scene"));
+        }
+        let most = |least_bytes| FREE_PIECES + at / least_bytes;
+        if self.nodes > most(LEAST_BYTES_PER_PIECE) || self.elements > most(LEAST_BYTES_PER_ELEMENT) {
+            let message = "the elements up to here are shorter than those of any scene";
+            return Err(self.fault(at, message, "remove the elements that are no part of the scene"));
         }
         Ok(())
     }
@@ -155,19 +180,20 @@ impl<'a> Parser<'a> {
             let hint = "a < that starts no tag is written &lt;";
             return Err(self.fault(at, "this is not a valid name of an element", hint));
         }
-        self.check_attributes(at, tag)?;
+        // Open already, so that a fault in the tag names its element.
         self.open.push(Open { at, key: self.keys.fresh(), tag, children: Vec::new() });
-        Ok(())
+        self.check_attributes(at, tag)
     }
 
     fn check_attributes(&mut self, at: usize, tag: &'a str) -> Result<(), ParseFault> {
         let mut names = std::mem::take(&mut self.names);
         names.clear();
         for attr in tag::attributes(tag) {
-            let attr = attr.map_err(|fault| self.fault(at + fault.at, fault.message, ""))?;
+            let attr = attr.map_err(|bad| self.fault(at + bad.at, bad.fault.message(), bad.fault.hint()))?;
             let here = at + attr.whole.start + 1;
             if !is_name(attr.name) {
-                return Err(self.fault(here, "this is not a valid name of an attribute", ""));
+                let hint = "a name begins with a letter and has letters and digits";
+                return Err(self.fault(here, "this is not a valid name of an attribute", hint));
             }
             if attr.raw.contains('<') {
                 return Err(self.fault(at + attr.value.start, "a value contains <", "write it as &lt;"));

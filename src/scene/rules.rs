@@ -15,6 +15,16 @@ pub(super) const MAX_FILE_BYTES: u64 = 256 * 1024 * 1024;
 /// 256 MiB of `<a/>` make of the memory.
 pub(super) const MAX_NODES: usize = 24_000_000;
 
+/// Pieces and elements that any document may have, however short it is.
+pub(super) const FREE_PIECES: usize = 100_000;
+
+/// Bytes per piece of XML, tags and the spaces between them, in a longer document. The shortest body there is,
+/// each tag on its line, has 8.8; what is denser is no scene and would take a hundred times its size of memory.
+pub(super) const LEAST_BYTES_PER_PIECE: usize = 6;
+
+/// Bytes per element, likewise: `<Radius F32="1"/>` has 17.
+pub(super) const LEAST_BYTES_PER_ELEMENT: usize = 12;
+
 /// Bodies, or forces, of one document: what 256 MiB hold.
 pub(super) const MAX_ITEMS: usize = 1_000_000;
 

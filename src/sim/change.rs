@@ -174,7 +174,7 @@ fn change_static(model: &mut Model, state: &mut State, body: &Body) -> Result<Bo
     let order = model.body(id).identity.order;
     let (compiled, origin) = compile_body(body, order).map_err(|problem| EditRefused(problem.message))?;
     if !compiled.is_static() {
-        return Err(EditRefused("a static body can't become dynamic while running".into()));
+        return Err(EditRefused("a static body cannot become dynamic while running".into()));
     }
     model.bodies.replace_static(id.index(), compiled, origin.position);
     remake_static_tiles(model);

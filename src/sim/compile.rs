@@ -88,11 +88,11 @@ fn compile_shape(body: &scene::Body) -> Result<shape::Shape, Diagnostic> {
             })))
         }
         (Motion::Dynamic { .. }, Shape::Plane { .. }) => {
-            Err(problem(body, "a plane can't be dynamic", "make it a HardObject, or use another shape"))
+            Err(problem(body, "a plane cannot be dynamic", "make it a HardObject, or use another shape"))
         }
         (_, Shape::Unbuilt { element }) => Err(problem(
             body,
-            &format!("{element} can't be simulated by this version"),
+            &format!("{element} cannot be simulated by this version"),
             "remove the body, or replace what this version does not know",
         )),
     }

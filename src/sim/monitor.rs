@@ -20,40 +20,72 @@ pub(super) fn worst_overlap(model: &Model, state: &State, time: f64) -> f64 {
     worst
 }
 
-/// Warnings about the start: what overlaps, and what lies outside the map.
-pub(super) fn start_warnings(model: &Model, state: &State) -> Vec<Diagnostic> {
+/// Warnings about the start: what overlaps, and what lies outside the map. An error if so much overlaps that
+/// no simulation could begin in a sensible time.
+pub(super) fn start_warnings(model: &Model, state: &State) -> Result<Vec<Diagnostic>, Diagnostic> {
+    let mut warnings = overlap_warnings(model, state)?;
+    warnings.extend(outside_warnings(model, state));
+    warnings.sort_by_key(|warning| warning.key);
+    Ok(warnings)
+}
+
+fn overlap_warnings(model: &Model, state: &State) -> Result<Vec<Diagnostic>, Diagnostic> {
     let mut warnings = Vec::new();
+    let bodies = model.bodies.dynamic().len() + model.bodies.static_len();
+    let most = MOST_OVERLAPS.max(MOST_OVERLAPS_PER_BODY * bodies);
+    let mut count = 0;
     for_each_neighbour(model, state, |pair| {
         let gap = gap_of(model, state, pair, state.now);
         let depth = -gap.distance;
         if depth > contact_distance(model, pair, gap.point) {
-            let (a, b) = (&model.body(pair.a).identity, &model.body(pair.b).identity);
-            warnings.push(warning(
-                a,
-                format!("bodies {} and {} overlap by {} m at the start", a.name, b.name, meters(depth)),
-                "move them apart; the run goes on, but they can part only by moving away from each other",
-            ));
+            count += 1;
+            if count <= MOST_WARNINGS {
+                let (a, b) = (&model.body(pair.a).identity, &model.body(pair.b).identity);
+                warnings.push(warning(
+                    a,
+                    format!("bodies {} and {} overlap by {} m at the start", a.name, b.name, meters(depth)),
+                    "move them apart; the run goes on, but they can part only by moving away from each other",
+                ));
+            }
         }
-        warnings.len() < MOST_WARNINGS
+        count <= most
     });
-    if warnings.len() >= MOST_WARNINGS {
-        let more = "there may be more overlaps: only the first are listed".to_owned();
-        warnings
-            .push(Diagnostic { key: None, ..warning(&model.dynamic(0).identity, more, "mend these first") });
+    if count > most {
+        return Err(Diagnostic {
+            severity: Severity::Error,
+            ..about_all(
+                format!("more than {most} pairs of bodies overlap at the start"),
+                "move them apart; are many of them at one place?",
+            )
+        });
     }
+    if count > MOST_WARNINGS {
+        let more = count - MOST_WARNINGS;
+        warnings.push(about_all(format!("and {more} more overlaps at the start"), "fix the first ones"));
+    }
+    Ok(warnings)
+}
+
+fn outside_warnings(model: &Model, state: &State) -> Vec<Diagnostic> {
     let size = model.grid.tile_size * DVec3::from(model.grid.counts.map(f64::from));
-    for body in model.present() {
-        let at = state.position(body, state.now);
-        if at.cmplt(DVec3::ZERO).any() || at.cmpgt(size).any() {
-            let identity = &model.dynamic(body).identity;
-            warnings.push(warning(
-                identity,
-                format!("body {} starts outside the map", identity.name),
-                "move it inside or enlarge the map; it is simulated all the same",
-            ));
-        }
+    let is_outside = |body: &u32| {
+        let at = state.position(*body, state.now);
+        at.cmplt(DVec3::ZERO).any() || at.cmpgt(size).any()
+    };
+    let mut outside = model.present().filter(is_outside);
+    let first = outside.by_ref().take(MOST_WARNINGS).map(|body| {
+        let identity = &model.dynamic(body).identity;
+        let message = format!("body {} starts outside the map", identity.name);
+        warning(identity, message, "move it inside or enlarge the map; it is simulated all the same")
+    });
+    let mut warnings: Vec<Diagnostic> = first.collect();
+    let more = outside.count();
+    if more > 0 {
+        warnings.push(about_all(
+            format!("and {more} more bodies start outside the map"),
+            "move them inside or enlarge the map",
+        ));
     }
-    warnings.sort_by_key(|warning| warning.key);
     warnings
 }
 
@@ -73,8 +105,29 @@ fn warning(identity: &Identity, message: String, hint: &str) -> Diagnostic {
     }
 }
 
-/// Overlaps listed at most: bodies piled on one point would give as many as there are pairs.
+/// A warning about no body in particular.
+fn about_all(message: String, hint: &str) -> Diagnostic {
+    Diagnostic {
+        severity: Severity::Warning,
+        position: None,
+        path: String::new(),
+        message,
+        hint: hint.into(),
+        key: None,
+    }
+}
+
+/// Overlaps, and bodies outside the map, listed at most: bodies piled on one point would give as many as there
+/// are pairs.
 const MOST_WARNINGS: usize = 200;
+
+/// Overlapping pairs per body with which a simulation still begins. A ball touches at most 12 of its own size,
+/// and even a heap that overlaps badly has some dozens; n balls at one place have n/2 each, and every prediction
+/// would cost as much.
+const MOST_OVERLAPS_PER_BODY: usize = 50;
+
+/// So many pairs are looked at in a fraction of a second, however few bodies there are.
+const MOST_OVERLAPS: usize = 100_000;
 
 /// Every pair that shares a tile, once, in order, until `visit` says that it has seen enough.
 fn for_each_neighbour(model: &Model, state: &State, mut visit: impl FnMut(Pair) -> bool) {

@@ -20,9 +20,9 @@ use super::state::State;
 use super::{change, drive, hash, monitor};
 use crate::scene::{Diagnostic, NodeKey, Scene};
 
-/// Why a scene can't be simulated.
+/// Why a scene cannot be simulated.
 #[derive(Clone, Debug, thiserror::Error)]
-#[error("the scene can't be simulated: {}", .problems.first().map_or("", |p| &p.message))]
+#[error("the scene cannot be simulated: {}", .problems.first().map_or("", |p| &p.message))]
 pub struct CompileError {
     pub problems: Vec<Diagnostic>,
 }
@@ -67,8 +67,10 @@ impl Simulation {
         for body in 0..starts.len() as u32 {
             enter(&model, &mut state, body, 0.0);
         }
+        // Before anything is predicted: what is refused here would take minutes.
+        model.start_warnings = monitor::start_warnings(&model, &state)
+            .map_err(|problem| CompileError { problems: vec![problem] })?;
         let fault = start(&model, &mut state).err();
-        model.start_warnings = monitor::start_warnings(&model, &state);
         Ok(Self { model: Arc::new(model), state, fault })
     }
 

@@ -1,6 +1,7 @@
 //! How whoever started a study follows it and ends it.
 
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 /// What a study is doing.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,6 +15,7 @@ pub struct StudyProgress {
 /// The line to whoever started a study.
 pub struct Control<'a> {
     cancel: &'a AtomicBool,
+    deadline: Option<Instant>,
     report: &'a mut dyn FnMut(&StudyProgress),
     /// The stage that is going on: its name, where it starts and which share of the whole it is.
     stage: (String, f64, f64),
@@ -24,12 +26,19 @@ pub struct Control<'a> {
 impl<'a> Control<'a> {
     /// `cancel` ends the study soon after it becomes true; `report` is called often, from the study's thread.
     pub fn new(cancel: &'a AtomicBool, report: &'a mut dyn FnMut(&StudyProgress)) -> Self {
-        Self { cancel, report, stage: (String::new(), 0.0, 1.0), shown: 0.0 }
+        Self { cancel, deadline: None, report, stage: (String::new(), 0.0, 1.0), shown: 0.0 }
+    }
+
+    /// Ends the study after so much wall-clock time from now, if there is such a limit.
+    pub fn until(mut self, wall: Option<Duration>) -> Self {
+        self.deadline = wall.and_then(|wall| Instant::now().checked_add(wall));
+        self
     }
 
     /// Whether to end now.
     pub fn is_cancelled(&self) -> bool {
         self.cancel.load(Ordering::Relaxed)
+            || self.deadline.is_some_and(|deadline| Instant::now() >= deadline)
     }
 
     pub(super) fn begin(&mut self, what: String, start: f64, share: f64) {

@@ -46,6 +46,7 @@ fn stopped(stop: Option<&Stop>) -> String {
     match stop {
         None => String::new(),
         Some(Stop::RunLimit) => "run limit".into(),
+        Some(Stop::EventLimit) => "event limit".into(),
         Some(Stop::Fault(what)) => format!("\"{}\"", what.replace('"', "\"\"").replace(['\n', '\r'], " ")),
     }
 }

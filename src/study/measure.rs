@@ -17,6 +17,7 @@ pub struct Limits {
     pub sample_dt: f64,
     /// Longest wall time, s.
     pub run_limit: f64,
+    pub max_events: Option<u64>,
     pub agreement: f64,
     pub event_window: f64,
 }
@@ -27,6 +28,7 @@ impl Limits {
             until: settings.until,
             sample_dt: settings.sample_dt(),
             run_limit: settings.run_limit,
+            max_events: settings.max_events,
             agreement: settings.agreement,
             event_window: settings.event_window,
         }
@@ -99,6 +101,8 @@ struct ObservedRun<'a> {
     dynamic: Vec<usize>,
     fixed: Vec<usize>,
     hits: Vec<PairImpact>,
+    /// Of all kinds.
+    events: u64,
     has_parted: bool,
     point: RunFigures,
 }
@@ -126,6 +130,7 @@ impl<'a> ObservedRun<'a> {
             dynamic,
             fixed,
             hits: Vec::new(),
+            events: 0,
             has_parted: false,
             point: Self::blank(candidate, None),
             sim,
@@ -160,22 +165,31 @@ impl<'a> ObservedRun<'a> {
     fn step(&mut self, time: f64, deadline: Instant, control: &Control) -> Option<Option<Stop>> {
         self.sim.begin(time);
         loop {
-            match self.sim.work(PREDICTIONS) {
-                Ok(Progress::Event(event)) => self.event(&event),
-                Ok(Progress::Working) => {}
-                Ok(Progress::Done) => return Some(None),
+            let progress = match self.sim.work(PREDICTIONS) {
+                Ok(progress) => progress,
                 Err(fault) => return Some(Some(Stop::Fault(fault.to_string()))),
+            };
+            if let Progress::Event(event) = &progress {
+                self.event(event);
             }
+            // Also after a Δt in which nothing happened: there may be a billion of them.
             if control.is_cancelled() {
                 return None;
             }
+            if self.limits.max_events.is_some_and(|most| self.events >= most) {
+                return Some(Some(Stop::EventLimit));
+            }
             if Instant::now() > deadline {
                 return Some(Some(Stop::RunLimit));
+            }
+            if progress == Progress::Done {
+                return Some(None);
             }
         }
     }
 
     fn event(&mut self, event: &Event) {
+        self.events += 1;
         if let (EventKind::Impact | EventKind::Collapse, Some(b)) = (event.kind, event.b) {
             self.point.impacts += 1;
             self.hits.push(PairImpact {

@@ -3,6 +3,7 @@
 use serde::{Serialize, Serializer};
 
 use super::StudySettings;
+use crate::scene::escaped;
 use crate::sim::Method;
 
 /// The answer of a study.
@@ -102,6 +103,8 @@ pub struct RunFigures {
 pub enum Stop {
     /// Its wall time was over.
     RunLimit,
+    /// It had as many events as are allowed.
+    EventLimit,
     /// A number went wrong.
     Fault(String),
 }
@@ -111,9 +114,10 @@ fn name_of<S: Serializer>(method: &Method, serializer: S) -> Result<S::Ok, S::Er
 }
 
 impl StudyReport {
-    pub(super) fn new(scene: String, settings: &StudySettings) -> Self {
+    /// The name becomes part of pictures and tables: characters that would break them are escaped.
+    pub(super) fn new(scene: &str, settings: &StudySettings) -> Self {
         Self {
-            scene,
+            scene: escaped(scene),
             until: settings.until,
             dynamic_bodies: 0,
             static_bodies: 0,

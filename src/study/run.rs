@@ -29,7 +29,7 @@ pub fn run(
 ) -> Result<StudyReport, StudyError> {
     settings.check()?;
     let compiled = Simulation::new(scene)?;
-    let mut report = StudyReport::new(name.to_owned(), settings);
+    let mut report = StudyReport::new(name, settings);
     report.dynamic_bodies = compiled.plan().dynamic_bodies;
     report.static_bodies = compiled.plan().static_bodies;
     report.motion = compiled.plan().motion.to_owned();

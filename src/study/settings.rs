@@ -28,6 +28,8 @@ pub struct StudySettings {
     pub reference_limit: f64,
     /// Longest wall time for one run, s.
     pub run_limit: f64,
+    /// Most events of one run, if there is such a limit.
+    pub max_events: Option<u64>,
 }
 
 impl Default for StudySettings {
@@ -44,6 +46,7 @@ impl Default for StudySettings {
             event_window: 1e-3,
             reference_limit: 30.0,
             run_limit: 20.0,
+            max_events: None,
         }
     }
 }

@@ -91,6 +91,7 @@ fn name(point: &RunFigures) -> String {
 fn reason(stop: &Stop) -> String {
     match stop {
         Stop::RunLimit => "its wall time was over; the figures are those of this part".into(),
+        Stop::EventLimit => "it had the most events allowed; the figures are those of this part".into(),
         Stop::Fault(what) => what.clone(),
     }
 }

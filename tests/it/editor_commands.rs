@@ -1,4 +1,4 @@
-//! The command table is complete, consistent and says why a command can't be used.
+//! The command table is complete, consistent and says why a command cannot be used.
 
 use std::collections::BTreeMap;
 

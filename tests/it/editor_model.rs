@@ -36,7 +36,7 @@ fn select_all_leaves_out_what_is_hidden() {
     let mut bench = Bench::open();
     bench.act(Action::Select(vec![bench.key(7)]));
     bench.run(Command::Hide);
-    assert!(bench.session.selection().is_empty(), "what can't be seen is not selected");
+    assert!(bench.session.selection().is_empty(), "what cannot be seen is not selected");
     bench.run(Command::SelectAll);
     assert_eq!(bench.session.selection().len(), 3);
     bench.run(Command::ShowAll);

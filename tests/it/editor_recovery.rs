@@ -144,3 +144,41 @@ fn a_folder_that_cannot_be_written_is_told_once_and_stops_nothing() {
     bench.wait(Duration::from_secs(20));
     assert_eq!(bench.notices(), "");
 }
+
+/// Symptom: the recovery folder and the copies in it could be read by others, also those of a private scene.
+#[cfg(unix)]
+#[test]
+fn nobody_else_reads_the_copies() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let (folder, _) = crashed();
+    let mode = |path: PathBuf| std::fs::metadata(path).unwrap().permissions().mode() & 0o777;
+    let recovery = folder.path().join("data/recovery");
+    assert_eq!(mode(recovery.clone()), 0o700);
+    for entry in std::fs::read_dir(recovery).unwrap() {
+        let path = entry.unwrap().path();
+        assert_eq!(mode(path.clone()), 0o600, "{}", path.display());
+    }
+}
+
+/// Symptom: of a scene whose name holds a byte that is no UTF-8 a copy was left that was never offered, and the
+/// settings were not kept. Cause: JSON has no text for such a path, so writing it failed.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_name_that_is_no_utf8_is_kept_and_offered() {
+    use std::os::unix::ffi::OsStrExt as _;
+    let mut bench = Bench::with_storage(tempfile::tempdir().unwrap());
+    let path = bench.folder.path().join(std::ffi::OsStr::from_bytes(b"s\xFFc.xml"));
+    std::fs::write(&path, SCENE).unwrap();
+    bench.act(Action::OpenPath(path.clone()));
+    bench.change(7, BodyChange::Mass(3.0));
+    bench.wait(Duration::from_secs(1));
+    assert_eq!(bench.notices(), "");
+    let Bench { session, folder, .. } = bench;
+    drop(session);
+    let mut bench = Bench::with_storage(folder);
+    assert_eq!(bench.session.settings().recent, std::slice::from_ref(&path));
+    bench.act(Action::Answer(Answer::Restore));
+    assert_eq!(bench.session.path(), Some(path.as_path()));
+    bench.run(Command::Save);
+    assert!(std::fs::read_to_string(&path).unwrap().contains("<Weight F32=\"3\" />"));
+}

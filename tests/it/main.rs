@@ -115,7 +115,7 @@ mod sim_scale;
 mod sim_thesis;
 // Contact scenes from seeds: seams, corners, squeezes, slots, pits, heaps, at any size.
 mod sim_variants;
-// The reference against closed forms and itself, and where it says that it can't be trusted.
+// The reference against closed forms and itself, and where it says that it cannot be trusted.
 mod study_reference;
 // Whole studies: exact comes out exact, wrong laws are found out, horizon, cancelling, files.
 mod study_runs;

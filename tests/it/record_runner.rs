@@ -3,9 +3,11 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use polyscene::record::{Frame, InlineRunner, RunCommand, RunState, Runner, ThreadRunner};
+use polyscene::record::{
+    Exceeded, Frame, InlineRunner, Limits, RunCommand, RunState, Runner, ThreadRunner, Watch, advance,
+};
 use polyscene::scene::{Document, ForceKind, Scene};
-use polyscene::sim::{EventKind, SimEdit};
+use polyscene::sim::{EventKind, SimEdit, Simulation};
 
 const DT: f64 = 1.0 / 60.0;
 
@@ -214,4 +216,57 @@ fn a_thread_reaches_the_same_state() {
         std::thread::yield_now();
     }
     assert_eq!(bits(&runner.frame()), expected);
+}
+
+/// Symptom: closing the window waited for ever when the simulation's thread was inside one long call.
+/// Cause: the thread was joined. Expected: it is left alone after a moment.
+#[test]
+fn a_thread_inside_a_long_call_does_not_hold_up_whoever_drops_it() {
+    const LONG: Duration = Duration::from_secs(5);
+    let mut runner = ThreadRunner::new(|| std::thread::sleep(LONG)).expect("a thread");
+    runner.send(RunCommand::Load(Box::new(scene("bounce.xml"))));
+    while runner.frame().state == RunState::Empty {
+        std::thread::yield_now();
+    }
+    let since = Instant::now();
+    drop(runner);
+    assert!(since.elapsed() < Duration::from_secs(1), "it took {:?}", since.elapsed());
+}
+
+/// Commands that wait when a runner is dropped are not carried out any more.
+#[test]
+fn a_dropped_thread_forgets_what_waits() {
+    let (told, frames) = std::sync::mpsc::channel();
+    let mut runner = ThreadRunner::new(move || told.send(()).unwrap_or_default()).expect("a thread");
+    let scene = scene("gas.xml");
+    for _ in 0..10_000 {
+        runner.send(RunCommand::Load(Box::new(scene.clone())));
+    }
+    drop(runner);
+    // The channel closes when the thread has ended.
+    let since = Instant::now();
+    while frames.recv_timeout(Duration::from_secs(1)).is_ok() {}
+    assert_eq!(frames.recv_timeout(Duration::ZERO), Err(std::sync::mpsc::RecvTimeoutError::Disconnected));
+    assert!(since.elapsed() < Duration::from_secs(5), "it took {:?}", since.elapsed());
+}
+
+/// A run that is stopped by a limit stands right after its last event and can go on, to the same bits.
+#[test]
+fn a_limited_run_stops_after_its_event_and_goes_on() {
+    let scene = scene("thesis-appendix-2.xml");
+    let mut whole = Simulation::new(&scene).expect("a sound scene");
+    let mut parted = whole.clone();
+    whole.begin(10.0);
+    whole.finish(&mut |_, _| {}).expect("no fault");
+    let mut events = 0;
+    let watch = Watch::start(Limits { events: Some(5), wall: None });
+    let mut last = 0.0;
+    let stop = advance(&mut parted, 10.0, &watch, &mut events, &mut |_, event| last = event.time);
+    assert_eq!((stop, events, parted.time()), (Ok(Some(Exceeded::Events(5))), 5, last));
+    let free = Watch::start(Limits::default());
+    assert_eq!(advance(&mut parted, 10.0, &free, &mut events, &mut |_, _| {}), Ok(None));
+    assert_eq!(parted.hash(), whole.hash());
+    let hurried = Watch::start(Limits { events: None, wall: Some(Duration::ZERO) });
+    let stop = advance(&mut parted, 20.0, &hurried, &mut events, &mut |_, _| {});
+    assert_eq!(stop, Ok(Some(Exceeded::Wall(Duration::ZERO))));
 }

@@ -59,3 +59,23 @@ fn edits_of_many_bodies_at_once_agree_with_a_fresh_read() {
         assert!(same_meaning(&now, &Document::from_bytes(&now.to_bytes())));
     }
 }
+
+/// Symptom: 96 MB of `<a/>` took 4.1 GB of memory. Expected: a file of elements that are shorter than any of the
+/// format is refused where that begins to count; the shortest bodies, however many, are not.
+#[test]
+fn a_file_of_nothing_but_tiny_elements_is_refused_early() {
+    for piece in ["<a/>", "<a></a>", "&lt;x", "<?a?>", "<abcdefg/>"] {
+        let text = format!("<PolyPhysicsXml Version=\"1.0\">{}</PolyPhysicsXml>", piece.repeat(1_200_000));
+        let document = Document::from_bytes(text.as_bytes());
+        let [problem] = document.diagnostics() else { panic!("one problem for {piece}") };
+        assert!(problem.message.contains("shorter than those of any scene"), "{problem}");
+        assert!(problem.position.is_some_and(|(_, column)| column < 9_000_000), "{problem}");
+    }
+    let body = "<SoftObject UserID=\"1\">\n<Translation X=\"0\" Y=\"0\" Z=\"0\"/>\n<Sphere>\n<Radius F32=\"1\"/>\n\
+                </Sphere>\n</SoftObject>\n";
+    let map = "<Map><Size X=\"1\" Y=\"1\" Z=\"1\"/><Tiles X=\"1\" Y=\"1\" Z=\"1\"/></Map>";
+    let bodies = body.repeat(100_000);
+    let text =
+        format!("<PolyPhysicsXml Version=\"1.0\">{map}<Primitives>{bodies}</Primitives></PolyPhysicsXml>");
+    assert!(!Document::from_bytes(text.as_bytes()).has_errors());
+}

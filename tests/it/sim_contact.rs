@@ -95,7 +95,7 @@ fn lift_offs(events: &[Event]) -> Vec<&Event> {
 
 #[test]
 fn fast_ball_leaves_the_end_of_a_shelf_flying_level() {
-    // v² / r > g: the edge can't hold it, so it flies on from where the face ends.
+    // v² / r > g: the edge cannot hold it, so it flies on from where the face ends.
     let (sim, events) = shelf(3.0);
     let t = 4.0 - 2.0 / 3.0;
     let expected = dvec3(7.0 + 3.0 * t, 5.5 - 4.9 * t * t, 5.0);

@@ -3,8 +3,9 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::recorder::Recorder;
-use super::samples::SampleGrid;
 use crate::cli::CliError;
+use crate::cli::samples::SampleGrid;
+use crate::record::{Exceeded, Watch};
 use crate::sim::{Fault, Progress, Simulation};
 
 /// Predictions carried out between two looks at the clock: a Δt may hold millions that are no events.
@@ -18,31 +19,49 @@ pub enum Ending {
     NobodyListens,
     Interrupted,
     Faulted(Fault),
+    /// A limit of the command line.
+    Exceeded(Exceeded),
 }
 
-/// Runs `sim` over `grid`; an error means that an output can't be written.
+/// What may end a run before its end.
+pub struct Stops<'a> {
+    pub interrupt: &'a AtomicBool,
+    pub watch: Watch,
+}
+
+/// Runs `sim` over `grid`; an error means that an output cannot be written.
 pub fn drive(
     sim: &mut Simulation,
     grid: &SampleGrid,
     recorder: &mut Recorder,
-    stop: &AtomicBool,
+    stops: &Stops,
 ) -> Result<Ending, CliError> {
+    let mut events = 0;
     recorder.sample(sim, 0)?;
     for step in 1..=grid.steps {
         sim.begin(grid.time(step));
         loop {
             match sim.work(PREDICTIONS) {
-                Ok(Progress::Event(event)) => recorder.event(sim, &event, step)?,
+                Ok(Progress::Event(event)) => {
+                    events += 1;
+                    recorder.event(sim, &event, step)?;
+                }
                 Ok(Progress::Working) => {}
                 Ok(Progress::Done) => break,
                 Err(fault) => return Ok(Ending::Faulted(fault)),
             }
-            if let Some(ending) = reason_to_stop(sim, recorder, stop)? {
+            if let Some(ending) = reason_to_stop(sim, recorder, stops, events)? {
+                if matches!(ending, Ending::Exceeded(_)) {
+                    recorder.last(sim)?;
+                }
                 return Ok(ending);
             }
         }
         recorder.sample(sim, step)?;
-        if let Some(ending) = reason_to_stop(sim, recorder, stop)? {
+        // At the end there is nothing left to stop.
+        if step < grid.steps
+            && let Some(ending) = reason_to_stop(sim, recorder, stops, events)?
+        {
             return Ok(ending);
         }
     }
@@ -52,14 +71,15 @@ pub fn drive(
 fn reason_to_stop(
     sim: &Simulation,
     recorder: &mut Recorder,
-    stop: &AtomicBool,
+    stops: &Stops,
+    events: u64,
 ) -> Result<Option<Ending>, CliError> {
     recorder.tick(sim)?;
-    Ok(if stop.load(Ordering::Relaxed) {
+    Ok(if stops.interrupt.load(Ordering::Relaxed) {
         Some(Ending::Interrupted)
     } else if recorder.nobody_listens() {
         Some(Ending::NobodyListens)
     } else {
-        None
+        stops.watch.exceeded(events).map(Ending::Exceeded)
     })
 }

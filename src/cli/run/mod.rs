@@ -5,7 +5,6 @@ mod final_scene;
 mod progress;
 mod recorder;
 mod rows;
-mod samples;
 mod summary;
 
 use std::path::{Path, PathBuf};
@@ -13,28 +12,34 @@ use std::time::Instant;
 
 use clap::Args;
 
-use self::drive::Ending;
+use self::drive::{Ending, Stops};
+use self::final_scene::FinalScene;
 use self::recorder::Recorder;
-use self::samples::SampleGrid;
 use self::summary::Summary;
+use super::limits::LimitArgs;
 use super::output::{self, is_stdout};
+use super::samples::SampleGrid;
 use super::{CliError, input, interrupt, method, number};
+use crate::record::Watch;
+use crate::scene::shown_path;
 use crate::sim::{EventKind, Method};
 
 /// Simulate a scene from t = 0 and write states, events and a summary
 ///
 /// All quantities are in SI units: metres, seconds, kilograms, joules. Δt only says when to look: events
 /// and states are the same bits for every Δt, unless --method asks for one that steps by Δt. The TimeSpeed of the file is for watching and scales nothing
-/// here. Without an output on standard output a summary for people is printed.
+/// here. Without an output on standard output a summary for people is printed. A run that
+/// --max-events or --max-wall stops writes the state it reached.
 #[derive(Debug, Args)]
 #[command(after_help = examples(), after_long_help = long_help())]
 pub struct RunArgs {
     /// Scene file; `-` is standard input
     scene: PathBuf,
 
-    /// Δt between samples in seconds; fractions such as 1/60 are fine
+    /// Δt between samples in seconds; fractions such as 1/60 are fine. The method exact needs none: without
+    /// it, only the start and the end are sampled
     #[arg(long, value_name = "S", value_parser = number::seconds, allow_negative_numbers = true)]
-    dt: f64,
+    dt: Option<f64>,
 
     /// Model time at which to end, in seconds; at most 1e9
     #[arg(long, value_name = "S", value_parser = number::seconds, allow_negative_numbers = true)]
@@ -63,44 +68,59 @@ pub struct RunArgs {
     /// Print one JSON object that sums the run up to standard output
     #[arg(long)]
     json: bool,
+
+    #[command(flatten)]
+    limits: LimitArgs,
 }
 
 pub(super) fn run(args: &RunArgs) -> Result<(), CliError> {
+    if args.dt.is_none() && args.method.depends_on_dt() {
+        let method = args.method.name();
+        return Err(CliError::Usage(format!("--method {method} steps by Δt: give --dt, such as --dt 1/60")));
+    }
     let grid = SampleGrid::new(args.dt, args.until).map_err(CliError::Usage)?;
     refuse_clashing_outputs(args)?;
+    let final_scene = args.final_scene.as_deref().map(FinalScene::new);
 
+    let watchdog = args.limits.watchdog();
     let name = input::display_name(&args.scene);
     let examined = input::open(&args.scene, args.method)?;
-    let warnings = examined.lines(&name);
+    let mut warnings = examined.lines(&name);
     for line in &warnings {
         super::say(line);
     }
     let errors = examined.error_count();
     let Some(mut sim) = examined.simulation else {
-        return Err(CliError::Scene(format!("{name} can't be simulated: {errors} error(s)")));
+        return Err(CliError::Scene(format!("{name} cannot be simulated: {errors} error(s)")));
     };
 
-    let stop = interrupt::on_interrupt();
-    if let Some(path) = args.final_scene.as_deref() {
-        final_scene::check(path)?;
-    }
+    let interrupt = interrupt::on_interrupt();
+    final_scene.as_ref().map_or(Ok(()), FinalScene::check)?;
     let mut recorder = Recorder::create(args, &grid)?;
     let started = Instant::now();
-    let ending = drive::drive(&mut sim, &grid, &mut recorder, stop)?;
+    let stops = Stops { interrupt, watch: Watch::start(args.limits.limits()) };
+    let ending = drive::drive(&mut sim, &grid, &mut recorder, &stops)?;
     let wall_s = started.elapsed().as_secs_f64();
+    drop(watchdog);
     recorder.close()?;
 
+    if let Some(warning) = summary::overflow_warning(&sim) {
+        let line = format!("{name}: warning: {warning}");
+        super::say(&line);
+        warnings.push(line);
+    }
     let summary = Summary::new(&sim, &grid, &ending, recorder.max_overlap(), wall_s, &warnings);
     if args.json {
         summary.print_json()?;
     } else if !args.writes_to_stdout() {
         summary.print_for_people(&name)?;
     }
+    if let (Ending::Finished | Ending::Exceeded(_), Some(target)) = (&ending, &final_scene) {
+        target.write(&examined.document, &sim)?;
+    }
     match ending {
-        Ending::Finished => match &args.final_scene {
-            Some(path) => final_scene::write(&examined.document, &sim, path),
-            None => Ok(()),
-        },
+        Ending::Finished => Ok(()),
+        Ending::Exceeded(why) => Err(CliError::Stopped { time: sim.time(), why }),
         Ending::NobodyListens => Ok(()),
         Ending::Interrupted => Err(CliError::interrupted(&sim)),
         Ending::Faulted(fault) => Err(CliError::Fault(fault)),
@@ -122,21 +142,14 @@ impl RunArgs {
 
 /// Two outputs in one place, or an output over the scene itself, would spoil both.
 fn refuse_clashing_outputs(args: &RunArgs) -> Result<(), CliError> {
-    let mut taken: Vec<(&str, PathBuf)> = Vec::new();
-    if args.json {
-        taken.push(("--json", "-".into()));
-    }
+    let json = args.json.then_some(("--json", Path::new("-")));
+    let all: Vec<_> = json.into_iter().chain(args.outputs()).collect();
+    output::refuse_shared(&all)?;
     for (option, path) in args.outputs() {
-        let place = output::place(path);
-        if let Some((other, _)) = taken.iter().find(|(_, p)| *p == place) {
-            let place = if is_stdout(path) { "standard output".into() } else { path.display().to_string() };
-            return Err(CliError::Usage(format!("{other} and {option} can't both write to {place}")));
-        }
         // `--final` replaces the file in one go after it was read; rows would destroy it at once.
         if option != "--final" && output::overwrites(path, &args.scene) {
-            return Err(CliError::Usage(format!("{option} would overwrite the scene {}", path.display())));
+            return Err(CliError::Usage(format!("{option} would overwrite the scene {}", shown_path(path))));
         }
-        taken.push((option, place));
     }
     Ok(())
 }
@@ -144,7 +157,8 @@ fn refuse_clashing_outputs(args: &RunArgs) -> Result<(), CliError> {
 fn examples() -> &'static str {
     "Examples:\n  \
      polyscene run scene.xml --dt 1/60 --until 60\n  \
-     polyscene run scene.xml --dt 0.01 --until 10 --events - | head\n  \
+     polyscene run scene.xml --until 10 --events - | head\n  \
+     polyscene run scene.xml --until 10 --max-events 100000 --max-wall 60 --json\n  \
      polyscene run scene.xml --dt 0.01 --until 10 --every 100 --states states.jsonl --json\n  \
      polyscene run scene.xml --dt 1/60 --until 60 --method thesis --json\n  \
      polyscene run scene.xml --dt 1 --until 5 --final after-5-s.xml"

@@ -2,11 +2,12 @@
 
 use std::time::{Duration, Instant};
 
+use super::RunArgs;
 use super::progress::Progress;
 use super::rows::{EventRow, StateRow};
-use super::{RunArgs, SampleGrid};
 use crate::cli::CliError;
 use crate::cli::output::LineSink;
+use crate::cli::samples::SampleGrid;
 use crate::sim::{Event, Simulation};
 
 /// Rows reach their readers, and the bar moves, this often.
@@ -59,6 +60,11 @@ impl Recorder {
             Some(sink) if is_last || step.is_multiple_of(self.states_every) => sink.row(&StateRow::new(sim)),
             _ => Ok(()),
         }
+    }
+
+    /// Takes down the state of a run that ends here, inside a Δt.
+    pub fn last(&mut self, sim: &Simulation) -> Result<(), CliError> {
+        self.sample(sim, self.last_step)
     }
 
     /// Takes down an event of the `dt_index`-th Δt.

@@ -5,19 +5,19 @@ use std::fmt::Write as _;
 use serde::{Serialize, Serializer};
 
 use super::drive::Ending;
-use super::samples::SampleGrid;
+use crate::cli::samples::SampleGrid;
 use crate::cli::{CliError, output};
 use crate::sim::{Energy, EventKind, Plan, Simulation};
 
-/// The object that `--json` prints. What can't be computed is `null`.
+/// The object that `--json` prints. What cannot be computed is `null`.
 #[derive(Serialize)]
 pub struct Summary<'a> {
     /// How it was stepped.
     method: &'static str,
     /// Model time reached, s.
     t: f64,
-    /// Δt asked for, s.
-    dt: f64,
+    /// Δt asked for, s; `null` if none was.
+    dt: Option<f64>,
     /// How many Δt the whole run has.
     steps: u64,
     /// Why the run stopped early; `null` when it reached its end.
@@ -102,6 +102,7 @@ impl<'a> Summary<'a> {
                 Ending::NobodyListens => Some("every reader of the output went away".into()),
                 Ending::Interrupted => Some("interrupted".into()),
                 Ending::Faulted(fault) => Some(fault.to_string()),
+                Ending::Exceeded(why) => Some(format!("early, at t = {} s: {why}", sim.time())),
             },
             events: ByKind(counters.events),
             wall_s,
@@ -124,7 +125,7 @@ impl<'a> Summary<'a> {
 
     pub fn print_json(&self) -> Result<(), CliError> {
         let text =
-            serde_json::to_string(self).map_err(|error| CliError::unwritable("--json", &error.into()))?;
+            serde_json::to_string(self).map_err(|error| CliError::unprintable("--json", &error.into()))?;
         output::print(format!("{text}\n").as_bytes())
     }
 
@@ -133,8 +134,11 @@ impl<'a> Summary<'a> {
     }
 
     fn for_people(&self, scene: &str) -> String {
-        let (t, dt) = (short(self.t), short(self.dt));
-        let mut text = format!("{scene}: {t} s, {} steps of {dt} s, method {}\n", self.steps, self.method);
+        let steps = match self.dt {
+            Some(dt) => format!("{} steps of {} s", self.steps, short(dt)),
+            None => "event by event".into(),
+        };
+        let mut text = format!("{scene}: {} s, {steps}, method {}\n", short(self.t), self.method);
         if let Some(stopped) = &self.stopped {
             line(&mut text, "stopped", stopped);
         }
@@ -191,6 +195,22 @@ impl PlanReport<'_> {
         }
         text
     }
+}
+
+/// Says that sums of the last state are too large to be numbers, where they are.
+pub fn overflow_warning(sim: &Simulation) -> Option<String> {
+    let Energy { kinetic, potential, total, .. } = sim.energy();
+    let energies = [Some(kinetic), potential, total].into_iter().flatten();
+    let what = match (energies.into_iter().all(f64::is_finite), sim.momentum().value.is_finite()) {
+        (true, true) => return None,
+        (false, true) => "the energy is",
+        (true, false) => "the momentum is",
+        (false, false) => "energy and momentum are",
+    };
+    Some(format!(
+        "{what} beyond the largest number, about 1.8e308, and reported as null; \
+         write the scene with smaller masses or speeds"
+    ))
 }
 
 fn energy_report(energy: Energy) -> EnergyReport {

@@ -48,6 +48,7 @@ pub fn show(ui: &mut Ui, report: &StudyReport) {
 
 fn stopped(stop: &Stop) -> String {
     match stop {
+        Stop::EventLimit => "It had the most events allowed; the figures are those of this part.".into(),
         Stop::RunLimit => "Its wall time was over; the figures are those of this part.".into(),
         Stop::Fault(what) => format!("Stopped: {what}"),
     }

@@ -15,7 +15,7 @@ use self::knobs::Knobs;
 use super::colors::tones;
 use super::context::{AppContext, Message, Shown};
 use super::widgets::severity_icon;
-use crate::scene::Scene;
+use crate::scene::{Scene, shown_path, write_atomically};
 use crate::study::{self, AXES, StudyReport};
 
 /// Width of the column with the knobs, points.
@@ -192,7 +192,8 @@ impl Accuracy {
             Export::Csv => study::csv(report),
             Export::Svg => study::svg(report).map_err(|error| error.to_string())?,
         };
-        std::fs::write(path, text).map_err(|error| format!("cannot write {}: {error}", path.display()))
+        write_atomically(path, text.as_bytes())
+            .map_err(|error| format!("cannot write {}: {error}", shown_path(path)))
     }
 }
 

@@ -8,6 +8,7 @@ use super::FileRequest;
 use crate::editor::{Action, Session};
 use crate::gui::colors::tones;
 use crate::gui::context::Message;
+use crate::scene::shown_path;
 
 /// Most entries of a folder listed.
 const MOST: usize = 2000;
@@ -96,7 +97,7 @@ impl PathDialog {
             if let Some(parent) = parent.filter(|_| up.clicked()) {
                 self.enter(parent);
             }
-            ui.label(RichText::new(self.folder.display().to_string()).weak());
+            ui.label(RichText::new(shown_path(&self.folder)).weak());
         });
     }
 
@@ -138,7 +139,7 @@ impl PathDialog {
                 self.folder = folder;
                 self.problem = None;
             }
-            Err(error) => self.problem = Some(format!("{}: {error}", folder.display())),
+            Err(error) => self.problem = Some(format!("{}: {error}", shown_path(&folder))),
         }
     }
 
@@ -156,7 +157,7 @@ impl PathDialog {
         }
         let saving = self.request != FileRequest::Open;
         if !saving && !path.exists() {
-            self.problem = Some(format!("There is no file {}", path.display()));
+            self.problem = Some(format!("There is no file {}", shown_path(&path)));
             return None;
         }
         if saving && path.exists() && self.confirmed.as_ref() != Some(&path) {

@@ -46,6 +46,11 @@ pub(super) fn read<'a>(el: View<'a>, log: &mut Log<'a>, cosmetics: Cosmetics) ->
 
 fn place_and_gravity<'a>(el: View<'a>, log: &mut Log<'a>) -> (DVec3, Option<View<'a>>) {
     let [translation, gravity] = log.children(el, ["Translation", "Gravity"]);
+    // That of a GravityPlane is only where it is drawn.
+    if translation.is_none() && el.name() == "GravityPoint" {
+        let hint = "write <Translation X=\"…\" Y=\"…\" Z=\"…\" />";
+        log.error(el.place(), "the force has no Translation", hint);
+    }
     let position = translation.and_then(|el| log.vector(el, Range::Any)).unwrap_or(DVec3::ZERO);
     if gravity.is_none() {
         log.warn(el.place(), "the force has no Gravity, so it does nothing", "write a Gravity element");

@@ -1,5 +1,7 @@
 //! Collects problems while an element is read, and holds the checks that all elements share.
 
+use std::num::IntErrorKind;
+
 use super::problem::{Limited, Problem};
 use crate::scene::diagnostic::Severity;
 use crate::scene::rules::Range;
@@ -127,13 +129,25 @@ impl<'a> Log<'a> {
     pub fn user_id(&mut self, el: View<'a>) -> Option<i64> {
         let attr = el.attribute("UserID")?;
         let value = attr.resolved();
-        let id = value.trim_matches(number::is_space).parse().ok();
-        if id.is_none() {
-            let at = place_in(el, attr.value.start);
-            let message = format!("UserID=\"{}\" is not a whole number", shown(&value));
-            self.error(at, message, "write a number; a name belongs in the properties of the body");
-        }
-        id
+        let digits = value.trim_matches(number::is_space);
+        let fault = match digits.parse::<i64>() {
+            Ok(id) => return Some(id),
+            Err(fault) => fault,
+        };
+        let (what, hint) = match fault.kind() {
+            IntErrorKind::PosOverflow | IntErrorKind::NegOverflow => (
+                "is beyond the range of IDs",
+                format!("write a whole number from {} to {}", i64::MIN, i64::MAX),
+            ),
+            IntErrorKind::Empty => ("is empty", "write a whole number such as 7".to_owned()),
+            _ => {
+                let hint = "write a whole number such as 7; a name belongs in the properties of the body";
+                ("is not a whole number", hint.to_owned())
+            }
+        };
+        let message = format!("UserID=\"{}\" {what}", shown(&value));
+        self.error(place_in(el, attr.value.start), message, hint);
+        None
     }
 }
 

@@ -127,6 +127,10 @@ impl Builder {
 
     fn push(&mut self, items: Arc<[Child]>) {
         let start = self.list.len();
+        // Nearly all lists have one chunk, and a Vec would make room for four.
+        if self.list.chunks.is_empty() {
+            self.list.chunks.reserve_exact(1);
+        }
         self.list.chunks.push(Chunk { start, items });
     }
 }

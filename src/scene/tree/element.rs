@@ -13,8 +13,12 @@ pub(in crate::scene) const NO_PLACE: u32 = u32::MAX;
 /// A piece of a document: a span of the source it was read from, or new text.
 #[derive(Clone, Debug)]
 pub(in crate::scene) enum Text {
-    Source { start: u32, end: u32 },
-    New(Arc<str>),
+    Source {
+        start: u32,
+        end: u32,
+    },
+    /// Behind one thin pointer: there are millions of texts, nearly all of them of the source.
+    New(Arc<Box<str>>),
 }
 
 impl Text {
@@ -32,13 +36,13 @@ impl Text {
 
 impl From<String> for Text {
     fn from(text: String) -> Self {
-        Self::New(text.into())
+        Self::New(Arc::new(text.into_boxed_str()))
     }
 }
 
 impl From<&str> for Text {
     fn from(text: &str) -> Self {
-        Self::New(text.into())
+        Self::New(Arc::new(text.into()))
     }
 }
 

@@ -27,22 +27,51 @@ impl<'a> Attr<'a> {
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::scene) struct TagFault {
     pub at: usize,
-    pub message: &'static str,
+    pub fault: AttributeFault,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::scene) enum AttributeFault {
+    NoSpaceBefore,
+    NoValue,
+    NoQuotes,
+    Unclosed,
+}
+
+impl AttributeFault {
+    pub fn message(self) -> &'static str {
+        match self {
+            Self::NoSpaceBefore => "white space is missing before an attribute",
+            Self::NoValue => "an attribute has no value",
+            Self::NoQuotes => "an attribute value is not in quotes",
+            Self::Unclosed => "the quote of an attribute value is not closed",
+        }
+    }
+
+    pub fn hint(self) -> &'static str {
+        match self {
+            Self::NoSpaceBefore => "put a space between the attributes; a tag ends with > or />",
+            Self::NoValue => "write Name=\"value\", or remove what stands there",
+            Self::NoQuotes => "write the value in quotes, such as X=\"1\"",
+            Self::Unclosed => "close the quote",
+        }
+    }
 }
 
 /// The name of a start tag, such as `<Map>`, or of an instruction, such as `<?xml?>`, then with its `?`.
 pub(in crate::scene) fn name(tag: &str) -> &str {
     let rest = tag.strip_prefix('<').unwrap_or(tag);
     let begins = usize::from(rest.starts_with('?'));
-    let is_end = |b: &u8| matches!(b, b' ' | b'\t' | b'\r' | b'\n' | b'/' | b'>' | b'?');
+    let last = if begins > 0 { b'?' } else { b'/' };
+    let is_end = |b: &u8| matches!(b, b' ' | b'\t' | b'\r' | b'\n' | b'>') || *b == last;
     let len = rest.as_bytes()[begins..].iter().position(is_end);
     len.map_or(rest, |len| &rest[..begins + len])
 }
 
 /// The attributes of a start tag, or the like in a processing instruction.
 pub(in crate::scene) fn attributes(tag: &str) -> Attributes<'_> {
-    let closed = tag.ends_with("/>") || tag.ends_with("?>");
-    let end = tag.len() - if closed { 2 } else { usize::from(tag.ends_with('>')) };
+    let ending = if tag.starts_with("<?") { "?>" } else { "/>" };
+    let end = tag.len() - if tag.ends_with(ending) { 2 } else { usize::from(tag.ends_with('>')) };
     Attributes { text: tag, at: (1 + name(tag).len()).min(end), end }
 }
 
@@ -69,24 +98,24 @@ impl<'a> Iterator for Attributes<'a> {
 
 impl<'a> Attributes<'a> {
     fn read(&self, before: usize, start: usize) -> Result<Attr<'a>, TagFault> {
-        let fault = |at, message| TagFault { at, message };
+        let fault = |at, fault| TagFault { at, fault };
         if before == start {
-            return Err(fault(start, "white space is missing before an attribute"));
+            return Err(fault(start, AttributeFault::NoSpaceBefore));
         }
         let bytes = &self.text.as_bytes()[..self.end];
         let name = bytes[start..].iter().take_while(|&&b| b != b'=' && !is_space(b)).count();
         let name_end = start + name;
         let equals = self.after_spaces(name_end);
         if bytes.get(equals) != Some(&b'=') {
-            return Err(fault(start, "an attribute has no value"));
+            return Err(fault(start, AttributeFault::NoValue));
         }
         let open = self.after_spaces(equals + 1);
         let Some(quote @ (b'"' | b'\'')) = bytes.get(open) else {
-            return Err(fault(open, "an attribute value is not in quotes"));
+            return Err(fault(open, AttributeFault::NoQuotes));
         };
         let from = open + 1;
         let Some(len) = bytes[from..].iter().position(|b| b == quote) else {
-            return Err(fault(open, "the quote of an attribute value is not closed"));
+            return Err(fault(open, AttributeFault::Unclosed));
         };
         let value = from..from + len;
         Ok(Attr {

@@ -3,6 +3,8 @@
 mod any_bytes;
 mod check;
 mod documents;
+mod limits;
+mod names;
 mod outputs;
 mod run;
 mod streams;

@@ -1,4 +1,4 @@
-//! Outputs that can't or must not be written are refused before the work, in words about the file itself.
+//! Outputs that cannot or must not be written are refused before the work, in words about the file itself.
 
 use super::{BOUNCE, Bench};
 
@@ -18,8 +18,8 @@ fn one_file_spelt_in_two_ways_is_one_output() {
     let bench = Bench::with_scene(BOUNCE);
     let absolute = bench.path("y.o");
     for other in ["./y.o", ".//y.o", absolute.to_str().expect("UTF-8 paths")] {
-        refused(&bench, &[&RUN[..], &["--events", "y.o", "--states", other]].concat(), "can't both write");
-        refused(&bench, &[&RUN[..], &["--final", "y.o", "--states", other]].concat(), "can't both write");
+        refused(&bench, &[&RUN[..], &["--events", "y.o", "--states", other]].concat(), "cannot both write");
+        refused(&bench, &[&RUN[..], &["--final", "y.o", "--states", other]].concat(), "cannot both write");
     }
     assert!(!absolute.exists());
 }
@@ -29,7 +29,7 @@ fn a_last_state_that_cant_be_written_is_refused_before_the_run() {
     let bench = Bench::with_scene(BOUNCE);
     std::fs::create_dir(bench.path("folder")).expect("a folder");
     let cases = [
-        ("folder", "can't write folder: it is a folder"),
+        ("folder", "cannot write folder: it is a folder"),
         ("missing/final.xml", "the folder missing does not exist"),
         ("scene.xml/final.xml", "scene.xml is not a folder"),
     ];
@@ -72,7 +72,7 @@ fn problems_that_cant_be_printed_are_told() {
     let output = bench.command(&["check", "bad.xml"]).stdout(full).output().expect("the program starts");
     let outcome = super::outcome(output);
     assert_eq!(outcome.code, 2, "{}", outcome.stderr);
-    assert!(outcome.stderr.contains("can't write standard output"), "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("cannot write standard output"), "{}", outcome.stderr);
 }
 
 #[cfg(feature = "render")]
@@ -96,4 +96,169 @@ fn a_picture_never_replaces_its_scene() {
 fn a_picture_in_no_folder_is_refused_in_words() {
     let bench = Bench::with_scene(BOUNCE);
     refused(&bench, &["render", "scene.xml", "-o", "no/x.png"], "the folder no does not exist");
+}
+
+/// Symptom: rows written to a hard link of the scene, or to the file that standard input came from, destroyed
+/// the scene. Cause: names were compared, not files.
+#[cfg(unix)]
+#[test]
+fn an_output_that_is_the_scene_by_another_name_is_refused() {
+    use std::fs::File;
+    let bench = Bench::with_scene(BOUNCE);
+    std::fs::hard_link(bench.path("scene.xml"), bench.path("twin")).expect("a hard link");
+    std::os::unix::fs::symlink("scene.xml", bench.path("link")).expect("a link");
+    for other in ["twin", "link"] {
+        for option in ["--states", "--events"] {
+            refused(&bench, &[&RUN[..], &[option, other]].concat(), "overwrite the scene");
+        }
+        for option in ["--csv", "--svg"] {
+            refused(&bench, &["study", "scene.xml", option, other], "overwrite the scene");
+        }
+        let both = [&RUN[..], &["--final", "scene.xml", "--events", other]].concat();
+        refused(&bench, &both, "cannot both write");
+        for arguments in [
+            &["run", "-", "--until", "1", "--states", other][..],
+            &["study", "-", "--csv", other],
+            #[cfg(feature = "render")]
+            &["render", "-", "-o", other],
+        ] {
+            let scene = File::open(bench.path("scene.xml")).expect("the scene");
+            let output = bench.command(arguments).stdin(scene).output().expect("the program starts");
+            let outcome = super::outcome(output);
+            assert_eq!(outcome.code, 2, "{arguments:?}: {}", outcome.stderr);
+            assert!(outcome.stderr.contains("overwrite the scene"), "{arguments:?}: {}", outcome.stderr);
+        }
+    }
+    assert_eq!(bench.read("scene.xml"), BOUNCE);
+}
+
+/// A run of the program whose files may not grow beyond 4 KiB: what a full disk does, without one.
+#[cfg(target_os = "linux")]
+fn on_a_full_disk(bench: &Bench, arguments: &[&str]) -> super::Outcome {
+    let program = bench.command(arguments);
+    let script = "trap '' XFSZ; ulimit -f 8; exec \"$@\"";
+    let mut shell = std::process::Command::new("sh");
+    shell.args(["-c", script, "sh"]).arg(program.get_program()).args(program.get_args());
+    shell.current_dir(bench.path("."));
+    super::outcome(shell.output().expect("a shell"))
+}
+
+/// Symptom: on a full disk the last line of states and events was cut. Expected: whole lines, and exit code 2.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_leaves_whole_lines() {
+    let bench = Bench::with_scene(BOUNCE);
+    let run = ["run", "scene.xml", "--dt", "0.01", "--until", "10", "--states", "states.jsonl"];
+    let outcome = on_a_full_disk(&bench, &run);
+    assert_eq!(outcome.code, 2, "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("cannot write states.jsonl"), "{}", outcome.stderr);
+    assert!(super::rows(&bench.read("states.jsonl")).len() > 3);
+}
+
+/// Symptom: `study --csv --svg` onto a full disk emptied the old files first. Expected: they stay, and nothing
+/// else is left behind.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_keeps_the_old_figures_and_diagrams() {
+    let bench = Bench::with_scene(BOUNCE);
+    bench.write("a.svg", "old");
+    let study = ["study", "scene.xml", "--until", "1", "--repeat", "1", "--dt", "1/30", "--svg", "a.svg"];
+    let outcome = on_a_full_disk(&bench, &study);
+    assert_eq!(outcome.code, 2, "{}", outcome.stderr);
+    assert_eq!(bench.read("a.svg"), "old");
+    let left = std::fs::read_dir(bench.path(".")).expect("the folder").count();
+    assert_eq!(left, 2, "the scene and the old picture");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn help_that_cant_be_printed_is_an_error() {
+    for arguments in [&["--help"][..], &["run", "--help"], &["--version"]] {
+        let full = std::fs::OpenOptions::new().write(true).open("/dev/full").expect("the full device");
+        let output = Bench::new().command(arguments).stdout(full).output().expect("the program starts");
+        let outcome = super::outcome(output);
+        assert_eq!(outcome.code, 2, "{arguments:?}");
+        assert!(outcome.stderr.contains("cannot write standard output"), "{}", outcome.stderr);
+    }
+}
+
+/// Symptom: a program killed while it saved left `.polyscene-….tmp` for ever. Expected: the next save there
+/// removes it, and nothing that somebody still writes or that is not ours.
+#[test]
+fn a_save_removes_what_a_killed_one_left() {
+    let bench = Bench::with_scene(BOUNCE);
+    let old = std::time::SystemTime::now() - std::time::Duration::from_secs(600);
+    let make = |name: &str, time| {
+        let file = std::fs::File::create(bench.path(name)).expect("a file");
+        file.set_modified(time).expect("a date");
+        file
+    };
+    make(".polyscene-abc.tmp", old);
+    make(".polyscene-new.tmp", std::time::SystemTime::now());
+    make(".other-abc.tmp", old);
+    let held = make(".polyscene-held.tmp", old);
+    held.lock().expect("a lock");
+    let outcome = bench.polyscene(&[&RUN[..], &["--final", "final.xml"]].concat());
+    assert_eq!(outcome.code, 0, "{}", outcome.stderr);
+    let there = [".polyscene-abc.tmp", ".polyscene-new.tmp", ".other-abc.tmp", ".polyscene-held.tmp"]
+        .map(|name| bench.path(name).exists());
+    assert_eq!(there, [false, true, true, true]);
+}
+
+/// Symptom: `--final x` overwrote without a word what another program had written to x during the run.
+/// Expected: that stays, and the state goes beside it.
+#[cfg(unix)]
+#[test]
+fn a_file_that_changed_during_the_run_is_not_overwritten() {
+    let bench = Bench::new();
+    let made = std::process::Command::new("mkfifo").arg(bench.path("scene.fifo")).status();
+    assert!(made.is_ok_and(|status| status.success()));
+    bench.write("x.xml", "before");
+    let run = ["run", "scene.fifo", "--until", "1", "--final", "x.xml"];
+    let child = bench.command(&run).stderr(std::process::Stdio::piped()).spawn().expect("the program starts");
+    // Opening waits for the program, which by then has looked at x.xml.
+    let mut scene = std::fs::OpenOptions::new().write(true).open(bench.path("scene.fifo")).expect("a pipe");
+    bench.write("x.xml", "written meanwhile");
+    std::io::Write::write_all(&mut scene, BOUNCE.as_bytes()).expect("the scene is read");
+    drop(scene);
+    let output = child.wait_with_output().expect("the program ends");
+    let complaint = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{complaint}");
+    assert!(complaint.contains("the last state is in x-2.xml"), "{complaint}");
+    assert_eq!(bench.read("x.xml"), "written meanwhile");
+    assert!(bench.read("x-2.xml").contains("<SoftObject"));
+}
+
+/// Symptom: an energy beyond the largest number was `null` in the summary, without a word.
+#[test]
+fn an_energy_that_is_no_number_is_told() {
+    let bench = Bench::with_scene(
+        &BOUNCE
+            .replace("Weight F32=\"2\"", "Weight F32=\"1E308\"")
+            .replace("InitialVelocity X=\"0\"", "InitialVelocity X=\"1000\""),
+    );
+    let outcome = bench.polyscene(&["run", "scene.xml", "--until", "0.1", "--json"]);
+    assert!(outcome.stderr.contains("beyond the largest number"), "{}", outcome.stderr);
+    let [summary] = &super::rows(&outcome.stdout)[..] else { panic!("one line: {}", outcome.stdout) };
+    let warnings = summary["warnings"].as_array().expect("warnings");
+    assert!(warnings.iter().any(|text| text.as_str().is_some_and(|text| text.contains("largest number"))));
+}
+
+/// Symptom: a scene of another owner, saved by root, became root's. Where the test is not root's it can only
+/// see that the mode is kept.
+#[cfg(unix)]
+#[test]
+fn a_saved_file_keeps_its_owner_and_mode() {
+    use std::os::unix::fs::{MetadataExt as _, PermissionsExt as _, chown};
+    let bench = Bench::with_scene(BOUNCE);
+    let path = bench.path("scene.xml");
+    std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o640)).expect("a mode");
+    let given = chown(&path, Some(1234), Some(4321)).is_ok();
+    let outcome = bench.polyscene(&[&RUN[..], &["--final", "scene.xml"]].concat());
+    assert_eq!(outcome.code, 0, "{}", outcome.stderr);
+    let about = std::fs::metadata(&path).expect("the file");
+    assert_eq!(about.mode() & 0o777, 0o640);
+    if given {
+        assert_eq!((about.uid(), about.gid()), (1234, 4321));
+    }
 }

@@ -77,5 +77,5 @@ fn a_full_disk_is_told() {
     let outcome =
         bench.polyscene(&["run", "scene.xml", "--dt", "0.1", "--until", "1", "--states", "/dev/full"]);
     assert_eq!(outcome.code, 2, "{}", outcome.stderr);
-    assert!(outcome.stderr.contains("can't write /dev/full"), "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("cannot write /dev/full"), "{}", outcome.stderr);
 }

@@ -48,7 +48,7 @@ fn what_is_wrong_is_said_by_the_options_name() {
         (&["--dt", "20"], "--dt must lie between"),
         (&["--tolerances", "0.5"], "--tolerances must lie"),
         (&["--repeat", "0"], "--repeat must lie"),
-        (&["--json", "--csv", "-"], "--json and --csv can't both write to standard output"),
+        (&["--json", "--csv", "-"], "--json and --csv cannot both write to standard output"),
         (&["--svg", "scene.xml"], "--svg would overwrite the scene"),
         (&["--svg", "missing/a.svg"], "the folder missing does not exist"),
     ];

@@ -7,8 +7,8 @@ use super::{BOUNCE, Bench};
 #[test]
 fn bad_arguments_are_refused_with_the_way_out() {
     let bench = Bench::with_scene(BOUNCE);
-    let cases: [(&[&str], &str); 18] = [
-        (&["run", "scene.xml"], "--dt"),
+    let cases: [(&[&str], &str); 21] = [
+        (&["run", "scene.xml"], "--until"),
         (&["run", "scene.xml", "--dt", "1"], "--until"),
         (&["run", "scene.xml", "--dt", "0", "--until", "1"], "more than 0"),
         (&["run", "scene.xml", "--dt", "-1", "--until", "1"], "more than 0"),
@@ -24,6 +24,9 @@ fn bad_arguments_are_refused_with_the_way_out() {
         (&["run", "scene.xml", "--dt", "1e-12", "--until", "1"], "make --dt larger"),
         (&["run", "scene.xml", "--dt", "1", "--until", "1", "--every", "0"], "--every"),
         (&["run", "scene.xml", "--dt", "1", "--until", "1", "--method", "euler"], "exact"),
+        (&["run", "scene.xml", "--until", "1", "--method", "thesis"], "--dt"),
+        (&["run", "scene.xml", "--until", "1", "--max-events", "0"], "--max-events"),
+        (&["run", "scene.xml", "--until", "1", "--max-wall", "-1"], "more than 0"),
         (&["check"], "FILE"),
         (&["scene.xml", "run"], "run"),
     ];
@@ -44,7 +47,7 @@ fn outputs_must_not_clash_nor_destroy_the_scene() {
         (&["--states", "-", "--events", "-"], "--states and --events"),
         (&["--states", "both", "--events", "both"], "--states and --events"),
         (&["--events", "./scene.xml"], "overwrite the scene"),
-        (&["--states", "no/such/folder/file"], "can't write no/such/folder/file"),
+        (&["--states", "no/such/folder/file"], "cannot write no/such/folder/file"),
     ];
     for (outputs, hint) in cases {
         let outcome = bench.polyscene(&[&run, outputs].concat());
@@ -64,7 +67,18 @@ fn help_names_every_verb_option_and_kind_of_event() {
     }
 
     let help = bench.polyscene(&["run", "--help"]).stdout;
-    let options = ["--dt", "--until", "--every", "--method", "--states", "--events", "--final", "--json"];
+    let options = [
+        "--dt",
+        "--until",
+        "--every",
+        "--method",
+        "--states",
+        "--events",
+        "--final",
+        "--json",
+        "--max-events",
+        "--max-wall",
+    ];
     for word in options.into_iter().chain(EventKind::ALL.map(EventKind::name)) {
         assert!(help.contains(word), "{word} is missing:\n{help}");
     }

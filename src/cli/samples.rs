@@ -9,7 +9,8 @@ const SLIVER: f64 = 1e-6;
 /// Sample k is at k·Δt by product, the last exactly at the end asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SampleGrid {
-    pub dt: f64,
+    /// s; `None` looks at the start and at the end only.
+    pub dt: Option<f64>,
     pub until: f64,
     /// How many Δt, at least 1. The last may be shorter.
     pub steps: u64,
@@ -17,7 +18,8 @@ pub struct SampleGrid {
 
 impl SampleGrid {
     /// Both in seconds, finite and > 0. The error is for the person who typed them.
-    pub fn new(dt: f64, until: f64) -> Result<Self, String> {
+    pub fn new(dt: Option<f64>, until: f64) -> Result<Self, String> {
+        let Some(dt) = dt else { return Ok(Self { dt: None, until, steps: 1 }) };
         if dt > until {
             return Err(format!(
                 "--dt {dt:?} is longer than --until {until:?}: there would be no whole step"
@@ -32,11 +34,11 @@ impl SampleGrid {
         }
         let whole = count.floor();
         let steps = if count - whole > SLIVER { whole + 1.0 } else { whole };
-        Ok(Self { dt, until, steps: steps as u64 })
+        Ok(Self { dt: Some(dt), until, steps: steps as u64 })
     }
 
     /// Model time of sample `k`, s.
     pub fn time(&self, k: u64) -> f64 {
-        if k >= self.steps { self.until } else { k as f64 * self.dt }
+        if k >= self.steps { self.until } else { k as f64 * self.dt.unwrap_or(self.until) }
     }
 }
