@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::capture::free_if_struck;
 use super::contact::Contact;
 use super::event::{Event, EventKind};
-use super::exchange::{exchange, impulse_from_outside, velocity_change};
+use super::exchange::{exchange, velocity_change};
 use super::fault::Fault;
 use super::geometry::{gap_of, restitution_of, smaller_radius};
 use super::group::{Group, Member, hit_just_now};
@@ -146,9 +146,10 @@ fn list(model: &Model, state: &mut State, time: f64, group: &Group, kind: EventK
 /// Books what a group lost and was given, settles what has come to rest, and lets its bodies go on.
 fn finish(model: &Model, state: &mut State, time: f64, mut group: Group) -> Result<(), Fault> {
     let before: Vec<DVec3> = group.bodies.ids.iter().map(|body| state.velocity(*body, time)).collect();
+    group.forget_rounding(&before);
     let settling = settle(model, &mut group);
     group.forget_rounding(&before);
-    book(state, &group);
+    book(state, &group, &before);
     let changed = changed(&group, &before, &settling);
     keep_contacts(model, state, &group, &settling);
     report_slides(model, state, time, &group, &before);
@@ -162,12 +163,14 @@ fn finish(model: &Model, state: &mut State, time: f64, mut group: Group) -> Resu
     Ok(())
 }
 
-/// Momentum that fixed bodies gave or took, and energy lost.
-fn book(state: &mut State, group: &Group) {
-    for member in &group.members {
-        let impulse = member.impulse * member.link.towards;
-        let from_outside = impulse_from_outside(state, member.pair, impulse);
-        state.account.impulses.add(from_outside);
+/// Momentum that static and captured bodies gave or took, and energy lost.
+fn book(state: &mut State, group: &Group, before: &[DVec3]) {
+    // What the bodies gave each other cancels: the rest came from those that stay.
+    let bodies = &group.bodies;
+    for ((old, new), inverse_mass) in before.iter().zip(&bodies.v).zip(&bodies.inverse_mass) {
+        if old != new {
+            state.account.impulses.add((*new - *old) / *inverse_mass);
+        }
     }
     state.account.impact_losses.add(group.loss);
 }

@@ -209,7 +209,7 @@ impl<'a> Search<'a> {
             let (coefficients, direction, norm) = self.beside_active(link, sign);
             let relief = self.relief(&coefficients);
             let blocking = self.blocking(&relief);
-            let full = (norm > 0.0).then(|| sign * self.excess(link) / norm);
+            let full = (norm > 0.0).then(|| self.full_step(link, sign, &direction, norm));
             let step = match (full, blocking) {
                 (Some(full), Some((_, blocked))) => full.min(blocked),
                 (Some(full), None) => full,
@@ -234,6 +234,16 @@ impl<'a> Search<'a> {
                 self.drop(position);
             }
         }
+    }
+
+    /// The step after which a link is at its limit. What it oversteps by rounding is left where taking it out would
+    /// cost more than rounding: of two links in all but the same direction.
+    fn full_step(&self, link: usize, sign: f64, direction: &Direction, norm: f64) -> f64 {
+        let excess = self.excess(link);
+        let step = sign * excess / norm;
+        let costs = |(d, size): (&DVec3, &f64)| step.abs() * d.length() > LEFT_OVER * size;
+        let is_rounding = excess.abs() <= self.tolerance(link);
+        if is_rounding && direction.bodies.iter().zip(&self.sizes).any(costs) { 0.0 } else { step }
     }
 
     fn go(&mut self, direction: &Direction, step: f64) {

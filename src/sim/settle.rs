@@ -8,9 +8,9 @@ use super::group::{Group, Member};
 use super::island::{largest, pressed};
 use super::link::Link;
 use super::model::Model;
-use super::nearest::{nearest, responses};
+use super::nearest::responses;
 use super::predict::touch_tolerance;
-use super::tolerance::LEFT_OVER;
+use super::tolerance::{LEFT_OVER, MOST_LEVELLED, NO_CHANGE};
 
 /// A contact of a group that lasts from now on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,7 +35,7 @@ pub(super) fn settle(model: &Model, group: &mut Group) -> Vec<Settling> {
 
     drop_unpressed(group, &mut candidates, &free, &links);
 
-    level(group, &candidates);
+    level(group, &mut candidates);
     candidates.iter().map(|candidate| candidate.settling(group)).collect()
 }
 
@@ -171,15 +171,23 @@ fn drop_unpressed(group: &Group, candidates: &mut Vec<Candidate>, free: &[DVec3]
     }
 }
 
-/// Takes what still parts at lasting contacts out of the velocities, closing none of the others.
-fn level(group: &mut Group, candidates: &[Candidate]) {
-    let links: Vec<Link> = group.members.iter().map(|member| member.link).collect();
-    let mut lasts = vec![false; links.len()];
-    candidates.iter().for_each(|candidate| lasts[candidate.member] = true);
-    let before: Vec<f64> = links.iter().map(|link| link.entering(&group.bodies.v)).collect();
-    let multipliers = nearest(&links, &lasts, &group.bodies.inverse_mass, &mut group.bodies.v).multipliers;
-    for ((member, multiplier), before) in group.members.iter_mut().zip(multipliers).zip(before) {
-        member.impulse += multiplier;
-        group.loss += 0.5 * multiplier * before;
+/// Takes what still parts at lasting contacts out of the velocities, closing none of the others. Contacts that could
+/// be kept only at the cost of other motion do not last yet: a ball on a plate would stop at every step that lifts it.
+fn level(group: &mut Group, candidates: &mut Vec<Candidate>) {
+    loop {
+        let mut lasts = vec![false; group.members.len()];
+        candidates.iter().for_each(|candidate| lasts[candidate.member] = true);
+        let levelled = group.levelled(&lasts);
+        let parting = |candidate: &Candidate| -group.closing(&group.members[candidate.member]);
+        let fastest = candidates.iter().map(parting).fold(0.0, f64::max);
+        let allowed = MOST_LEVELLED * candidates.len() as f64 * fastest + NO_CHANGE * group.fastest;
+        let changes =
+            group.bodies.v.iter().zip(&levelled.velocities).map(|(old, new)| (*new - *old).length());
+        let parts =
+            candidates.iter().position(|candidate| !candidate.touches && parting(candidate) == fastest);
+        match parts {
+            Some(fastest) if changes.fold(0.0, f64::max) > allowed => candidates.remove(fastest),
+            _ => return group.bring_to(levelled),
+        };
     }
 }

@@ -89,6 +89,8 @@ mod sim_drag;
 mod sim_edits;
 // Overlaps at the start, huge and tiny numbers, nothing at all.
 mod sim_extremes;
+// Contact that once stalled or came out wrong, each with its symptom and cause.
+mod sim_faults;
 // Fields: plunges, thin orbits, forces switched while running, forces of the user's own.
 mod sim_fields;
 // Motion between events: throw, Kepler ellipse, fall through air.
@@ -107,6 +109,8 @@ mod sim_random;
 mod sim_range;
 // Times of impact against bisection, at the rims of plates and spheres.
 mod sim_roots;
+// Scenes scaled by powers of two in length, time and mass give the scaled bits.
+mod sim_scale;
 // The thesis's own scene against the reference, and its invariants over a minute.
 mod sim_thesis;
 // Contact scenes from seeds: seams, corners, squeezes, slots, pits, heaps, at any size.

@@ -12,10 +12,13 @@ type Sizes = &'static [(f64, f64)];
 /// Families whose scenes all hold, with how many seeds and at which sizes. A family that is missing here does
 /// not hold yet: its line belongs to the change that makes it hold.
 const SWITCHED_ON: &[(Family, u64, Sizes)] = &[
+    (Family::Seam, 12, SIZES),
     (Family::Corner, 12, SIZES),
     (Family::Squeeze, 12, SIZES),
-    (Family::LossyFloor, 12, SIZES),
+    (Family::Slot, 12, SIZES),
+    (Family::Pit, 12, SIZES),
     (Family::WallAndFloor, 12, SIZES),
+    (Family::LossyFloor, 12, SIZES),
 ];
 
 /// From micrometres to thousands of kilometres.
@@ -46,6 +49,7 @@ struct Seen {
 fn watch(scene: &ContactScene) -> Result<Seen, String> {
     let mut sim = Simulation::new(&scene.scene).map_err(|error| format!("{error}: {:?}", error.problems))?;
     let monitor = OverlapMonitor::in_id_order(&scene.scene);
+    let at_start = monitor.worst_now(&sim);
     let radius = smallest_radius(&scene.scene);
     let (mut seen, mut lowest, mut calls) = (Seen::default(), f64::INFINITY, 0);
     for look in 1..=LOOKS {
@@ -65,7 +69,8 @@ fn watch(scene: &ContactScene) -> Result<Seen, String> {
                 lowest = lowest.min(total);
                 let scale = energy.kinetic + energy.potential.unwrap_or(0.0).abs();
                 seen.climb = seen.climb.max((total - lowest) / scale.max(f64::MIN_POSITIVE));
-                seen.overlap = seen.overlap.max(monitor.worst_now(&sim) / radius);
+                // Steps of a seam may reach into the ball from the start.
+                seen.overlap = seen.overlap.max((monitor.worst_now(&sim) - at_start) / radius);
                 seen.residual = seen.residual.max(energy.residual.ok_or("no residual")?.abs());
             }
             if progress == Progress::Done {
@@ -99,14 +104,15 @@ fn fault_of(scene: &ContactScene) -> Option<String> {
 
 #[test]
 fn contact_scenes_end_gain_nothing_and_overlap_nothing() {
+    let mut faults = Vec::new();
     for &(family, seeds, sizes) in SWITCHED_ON {
         for seed in 0..seeds {
             for &(length, time) in sizes {
-                let fault = fault_of(&scaled(&contact_scene(family, seed), length, time));
-                assert!(fault.is_none(), "{}", fault.unwrap_or_default());
+                faults.extend(fault_of(&scaled(&contact_scene(family, seed), length, time)));
             }
         }
     }
+    assert!(faults.is_empty(), "{} scenes:\n{}", faults.len(), faults.join("\n"));
 }
 
 #[test]
