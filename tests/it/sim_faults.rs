@@ -225,7 +225,7 @@ fn balls_jammed_between_walls_come_to_rest() {
     // pressed bodies at rest.
     for bounce in [0.0, 0.3, 0.55] {
         for width in [2.0, 1.5, 1.0 + 1e-9, 2.0 - 1e-12] {
-            for offset in [0.0, 1e-13, 1e-6, 0.1] {
+            for offset in [0.0_f64, 1e-13, 1e-6, 0.1] {
                 let balls = slot(width, bounce)
                     .body(ball(1, dvec3(0.5 + offset.min(width - 1.0), 1.0, 5.0), DVec3::ZERO).bounce(bounce))
                     .body(ball(2, dvec3(width - 0.5, 2.5, 5.0), DVec3::ZERO).bounce(bounce));
