@@ -35,7 +35,7 @@ pub(super) fn settle(model: &Model, group: &mut Group) -> Vec<Settling> {
 
     drop_unpressed(group, &mut candidates, &free, &links);
 
-    level(group, &mut candidates);
+    level(group, &mut candidates, &free);
     candidates.iter().map(|candidate| candidate.settling(group)).collect()
 }
 
@@ -46,6 +46,8 @@ struct Candidate {
     touches: bool,
     /// Sum of the bounces left out, s.
     flights: f64,
+    /// Time until the bodies are back, s.
+    flight: f64,
 }
 
 impl Candidate {
@@ -64,7 +66,7 @@ fn slow(model: &Model, group: &Group, free: &[DVec3], links: &[Link]) -> Vec<Can
         let touches = parting <= group.rounding(member);
         let height = rest_height(model, member).max(slack(model, group, member));
         let is_slow = touches || parting * parting <= 2.0 * strongest * height;
-        is_slow.then_some(Candidate { member: k, touches, flights: 0.0 })
+        is_slow.then_some(Candidate { member: k, touches, flights: 0.0, flight: 0.0 })
     };
     group.members.iter().enumerate().filter_map(candidate).collect()
 }
@@ -107,6 +109,7 @@ fn drop_bouncing(
             if candidate.touches {
                 return true;
             }
+            candidate.flight = 2.0 * (-group.closing(&group.members[candidate.member])).max(0.0) / pressing;
             let flights = remaining_flights(model, group, candidate.member, pressing);
             candidate.flights = flights.unwrap_or(0.0);
             flights.is_some()
@@ -136,10 +139,15 @@ fn remaining_flights(model: &Model, group: &Group, index: usize, pressing: f64) 
     is_low(slack(model, group, member)).then_some(0.0)
 }
 
+/// The time after which the last of the bodies is back, s.
+fn longest_flight(candidates: &[Candidate]) -> f64 {
+    candidates.iter().map(|candidate| candidate.flights.max(candidate.flight)).fold(0.0, f64::max)
+}
+
 /// Drops contacts that part all the same once the bodies have come back: one step of Moreau's over the longest
 /// of the flights left out tells. A ball that a step in the floor lifts leaves the floor, however slowly.
 fn drop_parting(group: &Group, candidates: &mut Vec<Candidate>, free: &[DVec3], links: &[Link]) {
-    let span = 2.0 * candidates.iter().map(|candidate| candidate.flights).fold(0.0, f64::max);
+    let span = 2.0 * longest_flight(candidates);
     let mut motion = group.bodies.v.clone();
     for (v, a) in motion.iter_mut().zip(free) {
         *v += span * *a;
@@ -173,20 +181,27 @@ fn drop_unpressed(group: &Group, candidates: &mut Vec<Candidate>, free: &[DVec3]
 
 /// Takes what still parts at lasting contacts out of the velocities, closing none of the others. Contacts that could
 /// be kept only at the cost of other motion do not last yet: a ball on a plate would stop at every step that lifts it.
-fn level(group: &mut Group, candidates: &mut Vec<Candidate>) {
+/// Levelling stands for what the forces do until the bodies are back, and may do no more.
+fn level(group: &mut Group, candidates: &mut Vec<Candidate>, free: &[DVec3]) {
+    let strongest = free.iter().map(|a| a.length()).fold(0.0, f64::max);
     loop {
         let mut lasts = vec![false; group.members.len()];
         candidates.iter().for_each(|candidate| lasts[candidate.member] = true);
         let levelled = group.levelled(&lasts);
-        let parting = |candidate: &Candidate| -group.closing(&group.members[candidate.member]);
-        let fastest = candidates.iter().map(parting).fold(0.0, f64::max);
-        let allowed = MOST_LEVELLED * candidates.len() as f64 * fastest + NO_CHANGE * group.fastest;
         let changes =
             group.bodies.v.iter().zip(&levelled.velocities).map(|(old, new)| (*new - *old).length());
-        let parts =
-            candidates.iter().position(|candidate| !candidate.touches && parting(candidate) == fastest);
-        match parts {
-            Some(fastest) if changes.fold(0.0, f64::max) > allowed => candidates.remove(fastest),
+        let falls = candidates.len() as f64 * strongest * longest_flight(candidates);
+        let is_fair = changes.fold(0.0, f64::max) <= MOST_LEVELLED * falls + NO_CHANGE * group.fastest;
+        let parting = |candidate: &Candidate| -group.closing(&group.members[candidate.member]);
+        let parts = (0..candidates.len()).filter(|k| !candidates[*k].touches);
+        let fastest =
+            parts.reduce(
+                |best, next| {
+                    if parting(&candidates[next]) > parting(&candidates[best]) { next } else { best }
+                },
+            );
+        match fastest {
+            Some(fastest) if !is_fair => candidates.remove(fastest),
             _ => return group.bring_to(levelled),
         };
     }

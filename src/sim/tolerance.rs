@@ -80,10 +80,10 @@ pub(super) const UNCOUPLED: f64 = 1e-12;
 /// start anew at every blow on a neighbour, for ever; larger, soft blows beside hard ones are lost.
 pub(super) const NO_CHANGE: f64 = 64.0 * f64::EPSILON;
 
-/// Levelling the contacts that last may change a velocity by so many times the sum of the speeds at which they part:
-/// the balls of a stack by the number of those below, a ball in a wedge by one over the sine of its angle. Smaller,
-/// bounces in narrow wedges are followed for longer; larger, what takes a body along is stopped.
-pub(super) const MOST_LEVELLED: f64 = 8.0;
+/// Levelling the contacts that last may change a velocity by so many times what the strongest acceleration does in the
+/// flights left out, for each contact: a ball on a stack takes up what parts in all contacts below. Smaller, bounces in
+/// heaps are followed for longer; larger, what carries a body along is stopped.
+pub(super) const MOST_LEVELLED: f64 = 2.0;
 
 /// What part of the reference speed of a collapse each impact leaves: it is forgotten after some hundred. Less, and
 /// slow collapses are not told from a gas that cools; more, and a body remembers blows of long ago.

@@ -15,6 +15,7 @@ const G: f64 = 9.81;
 /// Runs a scene and fails if it needs more events, overlaps, or gains energy.
 fn watched(scene: &Scene, until: f64, most_events: usize) -> (Simulation, Vec<Event>) {
     let mut sim = simulation(scene);
+    let size = scene.map.size.max_element();
     let monitor = OverlapMonitor::in_id_order(scene);
     let (mut events, mut lowest) = (Vec::new(), f64::INFINITY);
     sim.begin(until);
@@ -30,7 +31,7 @@ fn watched(scene: &Scene, until: f64, most_events: usize) -> (Simulation, Vec<Ev
         let scale = energy.kinetic + energy.potential.unwrap_or(0.0).abs();
         assert!(total <= lowest + 1e-11 * scale, "energy rose by {} J at t = {}", total - lowest, sim.time());
         lowest = lowest.min(total);
-        assert!(monitor.worst_now(&sim) <= 1e-11, "overlap at t = {}", sim.time());
+        assert!(monitor.worst_now(&sim) <= 1e-12 * size, "overlap at t = {}", sim.time());
     }
     assert_eq!(sim.time(), until, "the run must come to its end");
     (sim, events)
