@@ -24,7 +24,7 @@ pub(super) fn fault(model: &Model, body: u32, time: f64, error: SegmentError) ->
     let message = match error {
         SegmentError::NotFinite => {
             format!(
-                "body {name}: position, velocity or force is not a finite number; look at its forces and start"
+                "body {name}: position, velocity or force is no number, or too large to go on with; look at its forces and start"
             )
         }
         SegmentError::InCore => {

@@ -163,9 +163,9 @@ fn finish(model: &Model, state: &mut State, time: f64, mut group: Group) -> Resu
     Ok(())
 }
 
-/// Momentum that fixed bodies gave or took, and energy lost.
+/// Momentum that static and captured bodies gave or took, and energy lost.
 fn book(state: &mut State, group: &Group, before: &[DVec3]) {
-    // What the free bodies gave each other cancels: the rest came from fixed ones.
+    // What the bodies gave each other cancels: the rest came from those that stay.
     let bodies = &group.bodies;
     for ((old, new), inverse_mass) in before.iter().zip(&bodies.v).zip(&bodies.inverse_mass) {
         if old != new {
