@@ -164,7 +164,7 @@ impl Session {
 
     /// Shows an event that is listed, or goes back to it.
     fn go_to_event(&mut self, seq: u64) {
-        if !self.frame.events.iter().any(|row| row.event.seq == seq) {
+        if self.frame.event(seq).is_none() {
             self.go_back(RunCommand::GoTo { event: seq });
         }
         self.awaited_event = Some(seq);
@@ -173,7 +173,7 @@ impl Session {
 
     pub(super) fn show_awaited_event(&mut self) {
         let Some(seq) = self.awaited_event else { return };
-        let Some(row) = self.frame.events.iter().find(|row| row.event.seq == seq).cloned() else { return };
+        let Some(row) = self.frame.event(seq).cloned() else { return };
         let keys: Vec<_> = [Some(row.a_key), row.b_key].into_iter().flatten().collect();
         self.selection.set(&keys);
         self.shown_event = Some(row);

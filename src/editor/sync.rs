@@ -1,12 +1,11 @@
 //! Document and simulation side by side: edits reach the runner, its frames are taken.
 
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::live::{live_change, needs_reset};
 use super::session::Running;
 use super::{Notice, Session};
-use crate::record::{EventRow, Frame, RunCommand, RunState};
+use crate::record::{Frame, RunCommand, RunState};
 use crate::scene::{Diagnostic, Scene};
 use crate::sim::{Method, SimEdit};
 
@@ -27,9 +26,7 @@ impl Session {
             self.report_fault(&frame);
         }
         self.frame = frame;
-        let listed =
-            |row: &Arc<EventRow>| self.frame.events.iter().any(|other| other.event.seq == row.event.seq);
-        if self.shown_event.as_ref().is_some_and(|row| !listed(row)) {
+        if self.shown_event.as_ref().is_some_and(|row| self.frame.event(row.event.seq).is_none()) {
             self.shown_event = None;
         }
         self.show_awaited_event();

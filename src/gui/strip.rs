@@ -1,5 +1,7 @@
 //! The Δt being looked at, stretched to the width of the views: each event at its own time.
 
+use std::sync::Arc;
+
 use egui::{Align2, FontId, Pos2, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 use super::colors::{Tones, color32, tones};
@@ -13,6 +15,11 @@ pub const HEIGHT: f32 = 30.0;
 
 /// How near the pointer must be to an event, points.
 const REACH: f32 = 6.0;
+
+/// Events up to which each has its mark.
+const ALL_DRAWN: usize = 1000;
+/// Places along the line that are told apart where there are more.
+const PLACES_PER_POINT: f32 = 1.0;
 
 pub fn show(ui: &mut Ui, context: &AppContext<'_>) {
     let tones = tones(ui);
@@ -30,11 +37,13 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>) {
     let axis = Axis { line: axis_rect(ui, rect, frame, (from, to), &small, tones), from, to };
     axis.draw(ui, frame, tones);
     let hovered = response.hover_pos().and_then(|at| axis.nearest(frame, at));
-    for event in &frame.events {
+    let largest = frame.events.iter().map(|row| row.event.impulse).fold(0.0, f64::max);
+    let shown = context.session.shown_event().and_then(|shown| frame.event(shown.event.seq));
+    for event in axis.marks(&frame.events).into_iter().chain(shown).chain(hovered) {
         let chosen = context.session.shown_event().is_some_and(|shown| shown.event.seq == event.event.seq);
         let marked = hovered.is_some_and(|hovered| hovered.event.seq == event.event.seq);
         let color = if chosen || marked { color32(context.palette().highlight) } else { tones.strong };
-        axis.mark(ui, frame, event, color, chosen || marked);
+        axis.mark(ui, largest, event, color, chosen || marked);
     }
     let Some(event) = hovered else { return };
     let event = event.clone();
@@ -74,6 +83,25 @@ fn axis_rect(
     )
 }
 
+/// What tells who met.
+#[derive(Clone, Copy)]
+enum Head {
+    Disc,
+    Square,
+    Diamond,
+}
+
+impl Head {
+    fn of(row: &EventRow) -> Self {
+        let is_impact = matches!(row.event.kind, EventKind::Impact | EventKind::Collapse);
+        match (is_impact, row.event.b) {
+            (true, Some(BodyRef::Dynamic(_))) => Self::Disc,
+            (true, _) => Self::Square,
+            (false, _) => Self::Diamond,
+        }
+    }
+}
+
 /// The stretch of the screen that stands for the Δt.
 struct Axis {
     line: Rect,
@@ -102,11 +130,28 @@ impl Axis {
         }
     }
 
+    /// The events to be drawn: of many, at each place the one of each kind of head that hides the others, for what
+    /// cannot be told apart need not be drawn.
+    fn marks<'a>(&self, rows: &'a [Arc<EventRow>]) -> Vec<&'a Arc<EventRow>> {
+        if rows.len() <= ALL_DRAWN {
+            return rows.iter().collect();
+        }
+        let places = (self.line.width() * PLACES_PER_POINT).max(0.0) as usize + 1;
+        let mut highest: Vec<[Option<&Arc<EventRow>>; 3]> = vec![[None; 3]; places];
+        for row in rows {
+            let place = ((self.x(row.event.time) - self.line.left()) * PLACES_PER_POINT) as usize;
+            let kept = &mut highest[place.min(places - 1)][Head::of(row) as usize];
+            if kept.is_none_or(|kept| kept.event.impulse < row.event.impulse) {
+                *kept = Some(row);
+            }
+        }
+        highest.into_iter().flatten().flatten().collect()
+    }
+
     /// A stem as high as the impulse is large; its head tells who met: a disc for two moving bodies, a
     /// square for one at a static body, a diamond for what is no impact.
-    fn mark(&self, ui: &Ui, frame: &Frame, row: &EventRow, color: egui::Color32, large: bool) {
+    fn mark(&self, ui: &Ui, largest: f64, row: &EventRow, color: egui::Color32, large: bool) {
         let event = &row.event;
-        let largest = frame.events.iter().map(|row| row.event.impulse).fold(0.0, f64::max);
         let share = if largest > 0.0 { (event.impulse / largest).sqrt() } else { 0.0 };
         let bottom = self.line.bottom() - 2.0;
         let height = 5.0 + (self.line.height() - 10.0) * share as f32;
@@ -114,13 +159,12 @@ impl Axis {
         let painter = ui.painter();
         painter.line_segment([pos2(head.x, bottom), head], Stroke::new(if large { 2.0 } else { 1.0 }, color));
         let size = if large { 4.5 } else { 3.0 };
-        let is_impact = matches!(event.kind, EventKind::Impact | EventKind::Collapse);
-        match (is_impact, event.b) {
-            (true, Some(BodyRef::Dynamic(_))) => drop(painter.circle_filled(head, size, color)),
-            (true, _) => {
+        match Head::of(row) {
+            Head::Disc => drop(painter.circle_filled(head, size, color)),
+            Head::Square => {
                 painter.rect_filled(Rect::from_center_size(head, vec2(1.8, 1.8) * size), 0.0, color);
             }
-            (false, _) => {
+            Head::Diamond => {
                 let corners = [vec2(0.0, -size), vec2(size, 0.0), vec2(0.0, size), vec2(-size, 0.0)];
                 let corners = corners.map(|corner| head + corner * 1.3).to_vec();
                 painter.add(egui::Shape::convex_polygon(corners, color, Stroke::NONE));
@@ -128,7 +172,7 @@ impl Axis {
         }
     }
 
-    fn nearest<'a>(&self, frame: &'a Frame, at: Pos2) -> Option<&'a std::sync::Arc<EventRow>> {
+    fn nearest<'a>(&self, frame: &'a Frame, at: Pos2) -> Option<&'a Arc<EventRow>> {
         let distance = |row: &EventRow| (self.x(row.event.time) - at.x).abs();
         let near = frame.events.iter().filter(|row| distance(row) < REACH);
         near.min_by(|a, b| distance(a).total_cmp(&distance(b)))
@@ -141,4 +185,54 @@ fn describe(context: &AppContext<'_>, row: &EventRow) -> String {
     let bodies = super::events::bodies(context, row);
     let impulse = significant(event.impulse, 6);
     format!("{} {kind}: {bodies}\nt = {:.9} s, {impulse} N·s", event.seq, event.time)
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::scene::NodeKey;
+    use crate::sim::Event;
+
+    fn row(seq: u64) -> Arc<EventRow> {
+        let event = Event {
+            seq,
+            time: seq as f64 / 20_000.0,
+            impulse: (seq * 7919 % 10_007) as f64,
+            kind: EventKind::Impact,
+            a: BodyRef::Dynamic(0),
+            b: Some(BodyRef::Dynamic(1)),
+            point: DVec3::ZERO,
+            normal: DVec3::X,
+            vn_before: -1.0,
+            vn_after: 1.0,
+            group: 0,
+        };
+        Arc::new(EventRow {
+            event,
+            a_key: NodeKey(1),
+            b_key: Some(NodeKey(2)),
+            a_label: String::new(),
+            b_label: String::new(),
+            dt_index: 1,
+        })
+    }
+
+    /// Symptom: a repaint took most of a second while a Δt with thousands of events was shown.
+    /// Expected: as many marks as there are places, the highest of each among them.
+    /// Cause: each event was drawn, and looked through all for the largest impulse.
+    #[test]
+    fn many_events_are_drawn_as_many_marks_as_can_be_told_apart() {
+        let rows: Vec<_> = (1..=20_000).map(row).collect();
+        let axis = Axis { line: Rect::from_min_size(Pos2::ZERO, vec2(800.0, 20.0)), from: 0.0, to: 1.0 };
+        let marks = axis.marks(&rows);
+        assert!((800..=3 * 801).contains(&marks.len()), "{} marks", marks.len());
+        let largest = |rows: &mut dyn Iterator<Item = f64>| rows.fold(0.0, f64::max);
+        assert_eq!(
+            largest(&mut marks.iter().map(|row| row.event.impulse)),
+            largest(&mut rows.iter().map(|row| row.event.impulse))
+        );
+        assert_eq!(axis.marks(&rows[..ALL_DRAWN]).len(), ALL_DRAWN);
+    }
 }

@@ -59,6 +59,14 @@ pub struct Jump {
     pub size: f64,
 }
 
+impl Frame {
+    /// The listed event of this number.
+    pub fn event(&self, seq: u64) -> Option<&Arc<EventRow>> {
+        let place = self.events.binary_search_by_key(&seq, |row| row.event.seq).ok()?;
+        self.events.get(place)
+    }
+}
+
 /// A consistent picture, never changed after it is published.
 #[derive(Clone, Debug, Default)]
 pub struct Frame {

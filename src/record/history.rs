@@ -167,11 +167,16 @@ impl History {
         Some((self.ticks[index], index.checked_sub(1).map(|before| self.ticks[before])))
     }
 
-    /// The ticks before and after a recorded event.
-    pub(super) fn ticks_around(&self, event: Moment) -> Option<(Tick, Option<Tick>)> {
-        let is_before = |tick: &Tick| tick.at.event < event.event && tick.at.time <= event.time;
-        let index = self.ticks.iter().rposition(is_before)?;
-        Some((self.ticks[index], self.ticks.get(index + 1).copied()))
+    /// The last tick before a recorded event.
+    pub(super) fn tick_before(&self, event: Moment) -> Option<Tick> {
+        let is_before = |tick: &&Tick| tick.at.event < event.event && tick.at.time <= event.time;
+        self.ticks.iter().rev().find(is_before).copied()
+    }
+
+    /// The last tick not after `now`, and the first after it.
+    pub(super) fn ticks_around(&self, now: f64) -> (Option<Tick>, Option<Tick>) {
+        let after = self.ticks.partition_point(|tick| tick.at.time <= now);
+        (after.checked_sub(1).map(|before| self.ticks[before]), self.ticks.get(after).copied())
     }
 
     /// The snapshot to start from in order to reach `at`: what was recorded after it is ahead again.
@@ -182,10 +187,15 @@ impl History {
         Some(key)
     }
 
-    /// The next recorded edit, if it was made after this event and not after `until`; it counts as applied.
-    pub(super) fn take_due_edit(&mut self, last_event: u64, until: f64) -> Option<RecordedEdit> {
+    /// When the next recorded edit was made, if no event more comes before it.
+    pub(super) fn next_edit(&self, last_event: u64) -> Option<f64> {
+        self.edits.get(self.applied).map(|next| next.at).filter(|at| at.event <= last_event).map(|at| at.time)
+    }
+
+    /// The next recorded edit, if it was made not after this event and time; it counts as applied.
+    pub(super) fn take_due_edit(&mut self, last_event: u64, now: f64) -> Option<RecordedEdit> {
         let next = self.edits.get(self.applied)?;
-        if next.at.event != last_event || next.at.time > until {
+        if next.at.event > last_event || next.at.time > now {
             return None;
         }
         self.applied += 1;

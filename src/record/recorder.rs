@@ -4,6 +4,7 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
+use super::replay::Replay;
 use super::run::{Run, Slice};
 use super::{RunCommand, RunState};
 use crate::scene::{Diagnostic, Scene};
@@ -36,6 +37,7 @@ enum Task {
         empty: u32,
     },
     Finish,
+    Back(Replay),
     Play {
         dt: f64,
         speed: f64,
@@ -65,7 +67,8 @@ impl RunRecorder {
             }
             RunCommand::Method(_) => {}
             RunCommand::Pause => self.stop(),
-            RunCommand::Edit(edit) => self.edit(&edit),
+            // One that is made while going back is meant for where that leads to.
+            RunCommand::Edit(edit) if !self.goes_back() => self.edit(&edit),
             other => {
                 if matches!(self.task, Task::Play { .. }) {
                     self.task = Task::Idle;
@@ -73,6 +76,14 @@ impl RunRecorder {
                 self.waiting.push_back(other);
             }
         }
+    }
+
+    /// Whether it goes back, or will when what waits is done.
+    fn goes_back(&self) -> bool {
+        let back = |command: &RunCommand| {
+            matches!(command, RunCommand::StepBack | RunCommand::EventBack | RunCommand::GoTo { .. })
+        };
+        matches!(self.task, Task::Back(_)) || self.waiting.iter().any(back)
     }
 
     pub(super) fn state(&self) -> RunState {
@@ -132,6 +143,12 @@ impl RunRecorder {
                 Slice::Done => *empty += 1,
                 Slice::Pause => {}
             },
+            Task::Back(replay) => {
+                *budget -= 1;
+                if run.replay(replay) {
+                    *task = Task::Idle;
+                }
+            }
             Task::Finish => match run.grid.open {
                 Some((start, end)) => {
                     if matches!(run.slice(end - start, budget), Slice::Done) {
@@ -172,9 +189,12 @@ impl RunRecorder {
             RunCommand::Play { dt, speed } if valid(dt) && speed.is_finite() && speed > 0.0 => {
                 self.task = Task::Play { dt, speed, due: 0.0 };
             }
-            RunCommand::StepBack => run.step_back(),
-            RunCommand::EventBack => run.event_back(),
-            RunCommand::GoTo { event } => run.back_to_event(event),
+            RunCommand::StepBack => self.task = run.step_back().map_or(Task::Idle, Task::Back),
+            RunCommand::EventBack => self.task = run.event_back().map_or(Task::Idle, Task::Back),
+            RunCommand::GoTo { event } => {
+                self.task = run.back_to_event(event).map_or(Task::Idle, Task::Back);
+            }
+            RunCommand::Edit(edit) => run.edit(&edit),
             RunCommand::Step { .. } | RunCommand::NextEvent { .. } | RunCommand::Play { .. } => {
                 run.message = Some("Δt and speed must be above zero".into());
             }

@@ -1,25 +1,30 @@
-//! Going back: a run is put back to a snapshot and simulates again from there, with the same bits.
+//! Going back: a run is put back to a snapshot and simulates again from there, with the same bits. That is done
+//! in portions, so that it can be given up; then the run rests where it is.
 
-use super::history::{Moment, Tick};
-use super::run::{Rows, Run};
+use super::grid::StepGrid;
+use super::history::Moment;
+use super::run::{PREDICTIONS, Rows, Run};
+use crate::sim::Progress;
+
+/// A way back that is not at its end yet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Replay {
+    target: Moment,
+    /// The grid at the target, if that is the end of a Δt.
+    arrived: Option<StepGrid>,
+    /// The grid where going back began: its Δt may be one without a recorded end.
+    latest: StepGrid,
+}
 
 impl Run {
     /// Back to the beginning of the open Δt, or else of the last one.
-    pub(super) fn step_back(&mut self) {
-        let Some((tick, before)) = self.history.last_ticks(self.simulation.time()) else { return };
-        self.replay(before.unwrap_or(tick), |run| {
-            if let Some(before) = before {
-                run.grid = tick.grid.reopened(before.at.time, tick.at.time);
-            }
-            run.run_to(tick.at);
-            if !run.faulted {
-                run.grid = tick.grid;
-            }
-        });
+    pub(super) fn step_back(&mut self) -> Option<Replay> {
+        let (tick, before) = self.history.last_ticks(self.simulation.time())?;
+        self.go_back(before.unwrap_or(tick).at, tick.at, Some(tick.grid))
     }
 
     /// Back to the event before the one now looked at; the Δt around it is open then.
-    pub(super) fn event_back(&mut self) {
+    pub(super) fn event_back(&mut self) -> Option<Replay> {
         let history = &self.history;
         // After the end of a Δt the last event is itself the one before.
         let at_event =
@@ -27,59 +32,87 @@ impl Run {
         let target = if at_event { self.last_event.saturating_sub(1) } else { self.last_event };
         if self.history.time_of(target).is_none() {
             self.message = Some("there is no recorded event before this one".into());
-            return;
+            return None;
         }
-        self.back_to_event(target);
+        self.back_to_event(target)
     }
 
     /// Back to an event that was reached before; the Δt around it is open then.
-    pub(super) fn back_to_event(&mut self, event: u64) {
-        let Some(time) = self.history.time_of(event) else { return };
-        let target = Moment { event, time };
-        let Some((tick, after)) = self.history.ticks_around(target) else { return };
-        let around = match after {
-            Some(after) => after.grid.reopened(tick.at.time, after.at.time),
-            None => self.grid,
-        };
-        self.replay(tick, |run| {
-            run.grid = around;
-            run.run_to(target);
-        });
+    pub(super) fn back_to_event(&mut self, event: u64) -> Option<Replay> {
+        let target = Moment { event, time: self.history.time_of(event)? };
+        let tick = self.history.tick_before(target)?;
+        self.go_back(tick.at, target, None)
     }
 
-    /// Puts the run back to where it was at `from` and lets `then` go on from there, with the table filled
-    /// by what it passes. What goes wrong on the way is left as the message.
-    fn replay(&mut self, from: Tick, then: impl FnOnce(&mut Self)) {
-        let Some(key) = self.history.rewind(from.at) else { return };
+    /// Puts the run back to a snapshot not after `from`, the beginning of the Δt whose events the table shall
+    /// show at the target. What goes wrong on the way is left as the message.
+    fn go_back(&mut self, from: Moment, target: Moment, arrived: Option<StepGrid>) -> Option<Replay> {
+        let latest = self.grid;
+        let key = self.history.rewind(from)?;
         self.simulation.restore(&key.snapshot);
         self.grid = key.grid;
         self.last_event = key.at.event;
         self.drift.rewind(&self.simulation, key.at.event);
         self.faulted = false;
         self.message = None;
-        self.run_to(from.at);
-        if !self.faulted {
+        let replay = Replay { target, arrived, latest };
+        if self.grid.open.is_some() {
+            // A snapshot of an edit: the Δt around it may have been divided anew since.
+            self.reopen_step(&replay);
+        }
+        self.rows = Rows { truncated: self.grid.open.is_some(), ..Rows::default() };
+        Some(replay)
+    }
+
+    /// One portion of the way, Δt by Δt as before, with the edits on it applied at their stamps; whether the
+    /// target is reached.
+    pub(super) fn replay(&mut self, replay: &Replay) -> bool {
+        let Moment { event, time } = replay.target;
+        if self.last_event >= event && self.simulation.time() >= time {
+            self.arrive(replay);
+            return true;
+        }
+        if self.grid.open.is_none() {
+            self.reopen_step(replay);
             self.rows = Rows::default();
-            then(self);
+        }
+        let end = self.grid.open.map_or(time, |(_, end)| end);
+        self.begin_until(end, time);
+        match self.simulation.work(PREDICTIONS) {
+            Ok(Progress::Event(event)) => self.note(&event),
+            Ok(Progress::Working) => {}
+            Ok(Progress::Done) => {
+                if self.simulation.time() >= end && self.grid.open.is_some() {
+                    self.grid.close();
+                }
+                if self.simulation.time() >= time {
+                    self.arrive(replay);
+                    return true;
+                }
+            }
+            Err(fault) => self.stop_at(&fault),
+        }
+        false
+    }
+
+    /// Edits made at the target belong to it.
+    fn arrive(&mut self, replay: &Replay) {
+        self.apply_due_edits();
+        if let Some(grid) = replay.arrived {
+            self.grid = grid;
         }
     }
 
-    /// Simulates again up to a moment, Δt by Δt as before, with the edits on the way applied at their stamps.
-    fn run_to(&mut self, target: Moment) {
-        while !self.faulted {
-            let now = self.simulation.time();
-            let open = self.grid.open.map(|(_, end)| end).filter(|end| *end > now);
-            let end = self.history.next_tick(now).or(open).unwrap_or(target.time);
-            self.begin_until(end, target.time);
-            if self.last_event >= target.event && self.simulation.time() >= target.time {
-                return;
+    /// Opens the recorded Δt that now lies in.
+    fn reopen_step(&mut self, replay: &Replay) {
+        let now = self.simulation.time();
+        match self.history.ticks_around(now) {
+            (before, Some(after)) => {
+                let start = before.map_or(now, |before| before.at.time);
+                self.grid = after.grid.reopened(start, after.at.time);
             }
-            match self.simulation.next_event() {
-                Ok(Some(event)) => self.note(&event),
-                Ok(None) if self.simulation.time() < target.time => {}
-                Ok(None) => return,
-                Err(fault) => self.stop_at(&fault),
-            }
+            (_, None) if replay.latest.open.is_some_and(|(_, end)| end > now) => self.grid = replay.latest,
+            (_, None) => self.grid.open = None,
         }
     }
 }
@@ -168,5 +201,52 @@ mod tests {
         assert_eq!(again.state, RunState::Paused);
         let message = again.fault.unwrap();
         assert!(message.contains("edit made at 0.5 s") && message.ends_with(&reason), "{message}");
+    }
+
+    /// Symptom: while a run went back, pause and reset waited until it had arrived, for minutes in large scenes.
+    /// Expected: it goes back in portions of bounded work, and a pause leaves it inside a Δt from which it can go
+    /// on with the same bits.
+    /// Cause: going back simulated the whole way inside one command.
+    #[test]
+    fn going_back_is_done_in_portions_and_can_be_given_up() {
+        let mut recorder = recorder(None);
+        let last = frame_after(&mut recorder, RunCommand::Step { dt: 0.25, count: 8 });
+        assert!(last.event_count > 0, "{} events", last.event_count);
+
+        recorder.command(RunCommand::StepBack);
+        assert!(recorder.work(2));
+        let way = frame_of(&mut recorder, 1, Pace::default());
+        assert_eq!((way.state, way.time < 1.75), (RunState::Busy, true));
+        let (start, end) = way.step.unwrap();
+        assert!(
+            start <= way.time && way.time <= end && end - start == 0.25,
+            "{:?} at {}",
+            way.step,
+            way.time
+        );
+
+        let paused = frame_after(&mut recorder, RunCommand::Pause);
+        assert_eq!((paused.state, paused.fault, paused.time), (RunState::Paused, None, way.time));
+        frame_after(&mut recorder, RunCommand::FinishStep);
+        while frame_of(&mut recorder, 1, Pace::default()).time < last.time {
+            frame_after(&mut recorder, RunCommand::Step { dt: 0.25, count: 1 });
+        }
+        let again = frame_of(&mut recorder, 1, Pace::default());
+        assert_eq!((again.time, again.dt_index, &again.bodies), (last.time, last.dt_index, &last.bodies));
+        assert_eq!((again.event_count, &again.events), (last.event_count, &last.events));
+    }
+
+    /// Symptom: an edit sent while a run went back was made somewhere on the way.
+    /// Expected: it is made where the way ends.
+    /// Cause: edits act at once on whatever state the simulation is in.
+    #[test]
+    fn an_edit_waits_until_going_back_is_done() {
+        let mut recorder = recorder(None);
+        let last = frame_after(&mut recorder, RunCommand::Step { dt: 0.25, count: 8 });
+        recorder.command(RunCommand::StepBack);
+        assert!(recorder.work(1));
+        let key = last.bodies[0].key;
+        let frame = frame_after(&mut recorder, RunCommand::Edit(Box::new(SimEdit::Remove(key))));
+        assert_eq!((frame.time, frame.bodies.len() + 1), (1.75, last.bodies.len()));
     }
 }

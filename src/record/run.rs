@@ -14,7 +14,7 @@ use crate::sim::{Event, Fault, Progress, SimEdit, Simulation};
 const MAX_ROWS: usize = 20_000;
 
 /// Predictions carried out between two looks at the budget: a Δt may hold millions that are no events.
-const PREDICTIONS: u32 = 64;
+pub(super) const PREDICTIONS: u32 = 64;
 
 /// A loaded simulation with its Δt grid and its past.
 #[derive(Debug)]
@@ -76,17 +76,17 @@ impl Run {
         }
         *budget -= 1;
         self.begin_until(end, end);
-        if self.faulted {
-            return Slice::Pause;
-        }
         match self.simulation.work(PREDICTIONS) {
             Ok(Progress::Event(event)) => {
                 self.note(&event);
                 Slice::Event
             }
             Ok(Progress::Working) => Slice::Pause,
+            // The place of a recorded edit.
+            Ok(Progress::Done) if self.simulation.time() < end => Slice::Pause,
             Ok(Progress::Done) => {
                 self.close_step();
+                self.apply_due_edits();
                 Slice::Done
             }
             Err(fault) => {
@@ -96,28 +96,21 @@ impl Run {
         }
     }
 
-    /// Begins the Δt that ends at `end`, or goes on in it, up to `until`. Recorded edits that are due are
-    /// applied first.
+    /// Begins the Δt that ends at `end`, or goes on in it, up to `until` or to where the next recorded edit was
+    /// made. Edits of this very moment are applied first.
     pub(super) fn begin_until(&mut self, end: f64, until: f64) {
-        let until = until.min(end);
         // A method that steps by Δt must know its end before it is asked to stop inside it.
         self.simulation.begin(end);
-        self.apply_due_edits(until);
+        self.apply_due_edits();
         // An edit ends the Δt; the rest of it is begun anew.
         self.simulation.begin(end);
-        self.simulation.begin(until);
+        let edit = self.history.next_edit(self.last_event).unwrap_or(f64::INFINITY);
+        self.simulation.begin(until.min(end).min(edit));
     }
 
-    /// Applies the recorded edits whose turn it is, up to a time, each exactly where it was made.
-    fn apply_due_edits(&mut self, until: f64) {
-        while let Some(due) = self.history.take_due_edit(self.last_event, until) {
-            if due.at.time > self.simulation.time() {
-                self.simulation.begin(due.at.time);
-                // Between its event and its stamp there is none.
-                if let Err(fault) = self.simulation.finish(&mut |_, _| {}) {
-                    return self.stop_at(&fault);
-                }
-            }
+    /// Applies the recorded edits that were made right here.
+    pub(super) fn apply_due_edits(&mut self) {
+        while let Some(due) = self.history.take_due_edit(self.last_event, self.simulation.time()) {
             // It was accepted in this very state before: a refusal means that the run is no longer the same.
             if let Err(refused) = self.simulation.apply(&due.edit) {
                 let time = due.at.time;

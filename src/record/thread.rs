@@ -10,8 +10,8 @@ use super::publish::{Pace, frame_of};
 use super::recorder::RunRecorder;
 use super::{Frame, RunCommand, RunState, Runner};
 
-/// Events between two looks at the clock and at the commands.
-const SLICE: u32 = 64;
+/// Events between two looks at the clock and at the commands: in scenes of many bodies each takes milliseconds.
+const SLICE: u32 = 8;
 /// Time between two frames while it works or plays.
 const FRAME_TIME: Duration = Duration::from_millis(16);
 /// How long closing waits for the thread: many slices, and less than a person notices.
@@ -86,6 +86,8 @@ struct Clock {
     /// Time, events, Δt and model time when the last measurement began.
     since: (Instant, u64, u64, f64),
     working: Duration,
+    /// What making the last frame took.
+    publishing: Duration,
     pace: Pace,
 }
 
@@ -104,6 +106,7 @@ impl Worker {
             last_frame: now,
             since: (now, 0, 0, 0.0),
             working: Duration::ZERO,
+            publishing: Duration::ZERO,
             pace: Pace::default(),
         };
         Self { commands, shared, on_frame, recorder: RunRecorder::default(), revision: 0, clock }
@@ -131,7 +134,7 @@ impl Worker {
             busy = self.recorder.work(SLICE);
             self.clock.working += started.elapsed();
             let done = (was_working || received) && !busy && self.recorder.state() != RunState::Playing;
-            if done || ((busy || was_working) && self.clock.last_frame.elapsed() >= FRAME_TIME) {
+            if done || ((busy || was_working) && self.frame_is_due()) {
                 self.publish();
             }
         }
@@ -156,12 +159,19 @@ impl Worker {
         self.commands.recv().map_or(Received::Closed, Received::Command)
     }
 
+    /// In large scenes a frame takes longer than a frame's time: at most half of the time goes to them.
+    fn frame_is_due(&self) -> bool {
+        self.clock.last_frame.elapsed() >= FRAME_TIME.max(self.clock.publishing)
+    }
+
     fn publish(&mut self) {
+        let started = Instant::now();
         self.measure();
         self.revision += 1;
         let frame = Arc::new(frame_of(&mut self.recorder, self.revision, self.clock.pace));
         *self.shared.lock().unwrap_or_else(PoisonError::into_inner) = frame;
         self.clock.last_frame = Instant::now();
+        self.clock.publishing = self.clock.last_frame - started;
         (self.on_frame)();
     }
 

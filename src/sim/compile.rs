@@ -11,7 +11,7 @@ use super::model::Model;
 use super::plan::plan_of;
 use super::report::Plan;
 use super::shape::{self, Plate, Sphere};
-use super::tiles::{Grid, StaticTiles};
+use super::tiles::{Grid, StaticTiles, coarse_enough};
 use crate::scene::{self, Diagnostic, Force, ForceKind, Motion, Scene, Severity, Shape, rotation_matrix};
 
 /// The model, and where its dynamic bodies start (same order).
@@ -43,8 +43,9 @@ pub(super) fn compile(scene: &Scene, method: Method) -> Result<(Model, Vec<Origi
         .map(|force| ForceEntry { key: Some(force.key), law: Law::from_kind(&force.kind) })
         .collect();
     let largest = bodies.dynamic().iter().map(|body| body.shape.radius()).fold(0.0, f64::max);
-    let grid = Grid::new(&scene.map, largest);
-    let static_tiles = StaticTiles::new(&grid, &bodies, scene.params.static_tile_limit as u64);
+    let tile_limit = scene.params.static_tile_limit as u64;
+    let grid = coarse_enough(Grid::new(&scene.map, largest), &scene.map, &bodies, tile_limit);
+    let static_tiles = StaticTiles::new(&grid, &bodies, tile_limit);
     let mut model = Model {
         params: scene.params,
         method,

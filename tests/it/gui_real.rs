@@ -295,7 +295,7 @@ fn a_step_that_cannot_be_taken_is_told() {
     let scene = sample_path("orbit");
     let cases = [
         ("dt:0", "Δt must lie between"),
-        ("dt:fast", "is no number"),
+        ("dt:fast", "is not a number"),
         ("select:nosuch", "no body or force has this name"),
         ("event:99", "events in this Δt"),
         ("step_forward*-1", "the count after * must be a whole number from 1"),

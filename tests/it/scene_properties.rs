@@ -57,8 +57,9 @@ proptest! {
     ) {
         let mut text = plain();
         for (at, cut, shard) in damage {
-            let start = at.index(text.len());
-            let end = (start + cut).min(text.len());
+            let boundary = |at: usize| (0..=at).rev().find(|at| text.is_char_boundary(*at)).unwrap();
+            let start = boundary(at.index(text.len()));
+            let end = boundary((start + cut).min(text.len()));
             text.replace_range(start..end, SHARDS[shard]);
         }
         let document = read(&text);

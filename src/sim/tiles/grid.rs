@@ -37,6 +37,16 @@ impl Grid {
         Self { tile_size: tile_size(counts), counts }
     }
 
+    /// The same map with its tiles merged 2×2×2.
+    pub fn coarser(&self, map: &Map) -> Self {
+        let counts = self.counts.map(|count| count.div_ceil(2));
+        Self { tile_size: map.size / DVec3::from_array(counts.map(f64::from)), counts }
+    }
+
+    pub fn all(&self) -> TileRange {
+        TileRange { low: [0; 3], high: self.counts.map(|count| count - 1) }
+    }
+
     /// Tiles that the box from `low` to `high` (m) touches.
     pub fn range(&self, low: DVec3, high: DVec3) -> TileRange {
         let index = |at: DVec3| -> [u32; 3] {

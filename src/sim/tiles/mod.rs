@@ -8,4 +8,4 @@ mod statics;
 pub(super) use bricks::for_each_brick;
 pub(super) use dynamic::DynamicTiles;
 pub(super) use grid::{Grid, TileRange};
-pub(super) use statics::StaticTiles;
+pub(super) use statics::{StaticTiles, coarse_enough};

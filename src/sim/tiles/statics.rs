@@ -5,6 +5,7 @@ use rustc_hash::FxHashMap;
 
 use super::bricks::{BrickTile, for_each_brick, slots};
 use super::grid::{Grid, TileRange};
+use crate::scene::Map;
 use crate::sim::body::{Bodies, BodyId};
 use crate::sim::shape::Convex;
 
@@ -30,16 +31,39 @@ struct Brick {
     first: u32,
 }
 
+/// Listings that no scene is denied, and those that each of its bodies adds. More take memory and time to make
+/// them that finer tiles do not save: a static body over 64 tiles is four tiles wide.
+const FREE_LISTINGS: u64 = 1 << 20;
+const LISTINGS_PER_BODY: u64 = 64;
+
+/// Merges tiles as long as the static bodies would be listed too often in all. Results do not depend on the grid.
+/// What fills the grid's whole box does not count, for that no grid helps.
+pub(in crate::sim) fn coarse_enough(mut grid: Grid, map: &Map, bodies: &Bodies, tile_limit: u64) -> Grid {
+    let count = bodies.dynamic().len() + bodies.static_len();
+    let most = FREE_LISTINGS + LISTINGS_PER_BODY * count as u64;
+    while grid.counts != [1; 3] && listings(&grid, bodies, tile_limit) > most {
+        grid = grid.coarser(map);
+    }
+    grid
+}
+
+/// At least as many listings as there would be, for bodies that are no plates along the axes about twice as many.
+fn listings(grid: &Grid, bodies: &Bodies, tile_limit: u64) -> u64 {
+    let all = grid.all();
+    let ranges = bodies.present_statics().map(|index| {
+        let (shape, at) = placed(bodies, index);
+        range_of(grid, shape, at).0
+    });
+    ranges.filter(|range| *range != all).map(|range| range.len().min(tile_limit)).sum()
+}
+
 impl StaticTiles {
     pub fn new(grid: &Grid, bodies: &Bodies, tile_limit: u64) -> Self {
         let mut entries: Vec<(BrickTile, u32)> = Vec::new();
         let mut large = Vec::new();
         for index in bodies.present_statics() {
-            let at = bodies.static_segment(index).x;
-            let shape = bodies.get(BodyId::of_static(index)).shape.convex();
-            let (low, high) = shape.bounds(at);
-            let margin = margin(low, high);
-            let range = grid.range(low - margin, high + margin);
+            let (shape, at) = placed(bodies, index);
+            let (range, margin) = range_of(grid, shape, at);
             if range.len() > tile_limit.saturating_mul(64) {
                 large.push(index);
                 continue;
@@ -111,6 +135,18 @@ impl StaticTiles {
     }
 }
 
+fn placed(bodies: &Bodies, index: u32) -> (&dyn Convex, DVec3) {
+    let shape = bodies.get(BodyId::of_static(index)).shape.convex();
+    (shape, bodies.static_segment(index).x)
+}
+
+/// The tiles of a body's box, and by how much it is taken as larger, m.
+fn range_of(grid: &Grid, shape: &dyn Convex, at: DVec3) -> (TileRange, f64) {
+    let (low, high) = shape.bounds(at);
+    let margin = margin(low, high);
+    (grid.range(low - margin, high + margin), margin)
+}
+
 /// By how much a static body is taken as larger: above the rounding of the tests below, m.
 fn margin(low: DVec3, high: DVec3) -> f64 {
     1e-12 * low.abs().max(high.abs()).max_element().max((high - low).max_element())
@@ -130,7 +166,7 @@ mod tests {
     use glam::DQuat;
 
     use super::*;
-    use crate::scene::{Map, NodeKey};
+    use crate::scene::NodeKey;
     use crate::sim::body::{Body, Identity};
     use crate::sim::shape::{Plate, Shape, Sphere};
 
@@ -150,11 +186,15 @@ mod tests {
     }
 
     fn only(position: DVec3, shape: Shape) -> Bodies {
+        let mut bodies = Bodies::default();
+        add(&mut bodies, position, shape);
+        bodies
+    }
+
+    fn add(bodies: &mut Bodies, position: DVec3, shape: Shape) {
         let (label, name) = (Arc::from("0"), Arc::from("0"));
         let identity = Identity { key: NodeKey(0), id: 0, label, name, order: 0 };
-        let mut bodies = Bodies::default();
         bodies.push(Body::new(identity, f64::INFINITY, 1.0, shape, None), position);
-        bodies
     }
 
     fn random_plate(random: &mut Random) -> (Bodies, Plate) {
@@ -235,5 +275,29 @@ mod tests {
         assert_eq!(tiles.bodies(&grid, [4, 4, 4]), [0]);
         assert_eq!(tiles.bodies(&grid, [2, 5, 5]), [0]);
         assert_eq!(tiles.bodies(&grid, [2, 2, 2]), [0_u32; 0]);
+    }
+
+    /// Symptom: 10⁵ static spheres over the finest tiles took gigabytes and half a minute before the start.
+    /// Expected: as many listings as 64 for each body and a million for all; a scene below that keeps its grid.
+    /// Cause: each body was listed in every tile up to its own limit, whatever that summed up to.
+    #[test]
+    fn many_bodies_over_fine_tiles_coarsen_the_grid() {
+        let map = Map { size: DVec3::splat(1000.0), tiles: [65536; 3] };
+        let fine = Grid::new(&map, 0.01);
+        let mut random = Random(11);
+        let mut bodies = Bodies::default();
+        for _ in 0..20_000 {
+            let at = random.vector(0.0, 1000.0);
+            add(&mut bodies, at, Shape::Sphere(Sphere { radius: 0.1 + random.unit() }));
+        }
+        let grid = coarse_enough(fine, &map, &bodies, 4096);
+        let tiles = StaticTiles::new(&grid, &bodies, 4096);
+        let most = FREE_LISTINGS + 20_000 * LISTINGS_PER_BODY;
+        assert!(tiles.items.len() as u64 <= most, "{} listings, {most} at most", tiles.items.len());
+        assert!(tiles.items.len() as u64 > most / 32, "coarsened too far: {} listings", tiles.items.len());
+        assert!(tiles.large().is_empty());
+
+        let few = only(DVec3::splat(500.0), Shape::Sphere(Sphere { radius: 5.0 }));
+        assert_eq!(coarse_enough(fine, &map, &few, 4096), fine);
     }
 }
