@@ -4,6 +4,7 @@
 //! by conservative advancement from its nearest feature alone ([`sphere_convex`]).
 
 mod advance;
+mod approach;
 mod beyond;
 mod gap;
 mod sphere_convex;
