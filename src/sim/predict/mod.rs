@@ -10,6 +10,8 @@ mod gap;
 mod sphere_convex;
 mod sphere_plate;
 mod sphere_sphere;
+#[cfg(test)]
+mod tests;
 
 use glam::DVec3;
 

@@ -36,7 +36,7 @@ pub(super) fn first_contact(ball: Ball<'_>, plate: &Plate, from: f64) -> Option<
 
 /// What isolating the root tells from a time on.
 #[cold]
-fn skip(ball: Ball<'_>, plate: &Plate, slack: f64, time: f64) -> Skip {
+pub(super) fn skip(ball: Ball<'_>, plate: &Plate, slack: f64, time: f64) -> Skip {
     let (path, segment) = (ball.path, ball.path.segment);
     let (at, velocity) = (path.position(time), path.velocity(time));
     let mut until = segment.end;

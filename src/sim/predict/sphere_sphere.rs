@@ -39,7 +39,7 @@ pub(super) fn first_contact(a: Ball<'_>, b: Ball<'_>, from: f64, slack: impl FnO
 
 /// What isolating the root tells from a time on.
 #[cold]
-fn skip(a: Ball<'_>, b: Ball<'_>, search: Search, time: f64) -> Skip {
+pub(super) fn skip(a: Ball<'_>, b: Ball<'_>, search: Search, time: f64) -> Skip {
     let relative = relative(a, b, time);
     let (reach, mut until) = (a.radius + b.radius, search.until);
     if search.acceleration_bound.is_none() {
