@@ -28,6 +28,18 @@ pub(super) const SURELY_APART: f64 = 1e-9;
 /// Fewer cost more looks, more let one search last.
 pub(super) const MOST_ADVANCES: u32 = 400;
 
+/// Steps of it after which a search isolates the root, and again after as many. Most searches end sooner; fewer make
+/// it slower where it converges, more where it crawls.
+pub(super) const ADVANCES_BEFORE_SKIP: u32 = 40;
+
+/// Isolation leads to so many slacks before a contact, from where the search converges. Fewer, and rounding may lead
+/// past it; more, and the search may crawl.
+pub(super) const SLACKS_BEFORE_CONTACT: f64 = 8.0;
+
+/// Pieces of time that the isolation of one root looks at: some for each halving. Fewer leave roots unfound that the
+/// search then looks for, more are needed by none.
+pub(super) const MOST_PIECES: u32 = 4096;
+
 /// A found contact may be off by so many times [`TOUCH`]: what is farther apart was a search that gave up.
 /// Smaller, true contacts are looked for again and again; larger, an unfinished search counts as an impact.
 pub(super) const FOUND: f64 = 1e3;

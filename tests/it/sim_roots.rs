@@ -1,14 +1,14 @@
 //! Times of impact against bisection: one ball aimed at the rims of plates and spheres, along parabolas and
 //! along paths through a field.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::DVec3;
 use polyscene::scene::{ForceKind, Scene};
 use polyscene::study::Random;
 
 use crate::common::build::{Build, Shaped, ball, empty, plate, static_ball};
-use crate::common::drive::{Sampling, impacts, run};
+use crate::common::drive::{Sampling, advance, impacts, run, simulation};
 use crate::common::reference::reference;
 
 /// What bends the ball's path.
@@ -77,4 +77,26 @@ fn first_contacts_agree_with_bisection() {
         }
     }
     assert!((200..500).contains(&hits), "{hits} hits of 540 shots: aim better");
+}
+
+/// Symptom: a ball that fell along a wall that it touched took seconds, in which nothing happened. Expected: one short
+/// search for every segment. Cause: through a field the bound of the acceleration let a gap that stays zero be
+/// stepped along in steps of √(rounding / acceleration).
+#[test]
+fn a_ball_that_falls_along_a_wall_through_a_field_is_searched_for_once_per_segment() {
+    for gap in [0.0, 1e-15, 1e-13] {
+        let place = DVec3::new(4.5 - gap, 8.0, 5.0);
+        let scene = empty()
+            .tiles([1; 3])
+            .gravity(-9.8)
+            .attractor(DVec3::new(place.x, -30.0, 5.0), 50.0)
+            .plate(1, DVec3::splat(5.0), DVec3::new(0.0, -FRAC_PI_2, 0.0), 5.0, 5.0)
+            .body(ball(2, place, DVec3::new(0.0, 0.0, 0.3)));
+        let mut sim = simulation(&scene);
+        let events = advance(&mut sim, 2.0, Sampling::Every(2.0));
+        assert!(events.is_empty(), "{events:?}");
+        let counters = sim.counters();
+        assert!(counters.segments > 1, "a field");
+        assert!(counters.pair_tests <= counters.segments + 1, "{counters:?}");
+    }
 }

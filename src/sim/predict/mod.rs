@@ -4,11 +4,14 @@
 //! by conservative advancement from its nearest feature alone ([`sphere_convex`]).
 
 mod advance;
+mod approach;
 mod beyond;
 mod gap;
 mod sphere_convex;
 mod sphere_plate;
 mod sphere_sphere;
+#[cfg(test)]
+mod tests;
 
 use glam::DVec3;
 

@@ -1,9 +1,14 @@
 //! Sphere against plate: what a parabola has in closed form, before the search that any convex shape has.
 
+use glam::DVec3;
+
+use super::advance::Skip;
+use super::approach::{Across, Approach, Way, gone_after};
 use super::gap::{Ball, snap, touch_tolerance};
 use super::sphere_convex::search;
 use crate::sim::roots::first_root;
 use crate::sim::shape::Plate;
+use crate::sim::tolerance::STILL;
 
 pub(super) fn first_contact(ball: Ball<'_>, plate: &Plate, from: f64) -> Option<f64> {
     let seg = ball.path.segment;
@@ -26,7 +31,54 @@ pub(super) fn first_contact(ball: Ball<'_>, plate: &Plate, from: f64) -> Option<
             }
         }
     }
-    search(ball, |point| plate.nearest(point), from, slack)
+    search(ball, |point| plate.nearest(point), from, slack, |time| skip(ball, plate, slack, time))
+}
+
+/// What isolating the root tells from a time on.
+#[cold]
+pub(super) fn skip(ball: Ball<'_>, plate: &Plate, slack: f64, time: f64) -> Skip {
+    let (path, segment) = (ball.path, ball.path.segment);
+    let (at, velocity) = (path.position(time), path.velocity(time));
+    let mut until = segment.end;
+    if path.series.is_none() {
+        let reach = ball.radius + plate.half_x + plate.half_y;
+        until = until.min(time + gone_after([at - plate.center, velocity, segment.a], reach));
+    }
+    let approach = Approach {
+        from: time,
+        until,
+        reach: ball.radius,
+        distance: plate.nearest(at).distance - ball.radius,
+        still: STILL * velocity.length(),
+        slack,
+    };
+    approach.skip(|from, span| across(plate, &Way::of(path, from, span)))
+}
+
+/// The way from what is nearest of the plate: its coordinates in the plate's frame, along each side only what is
+/// beyond it.
+fn across(plate: &Plate, way: &Way) -> Across {
+    let turned = |c: DVec3| DVec3::new(plate.axis_x.dot(c), plate.axis_y.dot(c), plate.normal.dot(c));
+    let mut local = way.map(turned);
+    local.c[0] = plate.local_of(way.c[0]);
+    let speed = local.derivative();
+    let mut less = 0.0;
+    for (axis, half) in [plate.half_x, plate.half_y].into_iter().enumerate() {
+        let (low, high) = local.range(axis);
+        if low > half {
+            local.c[0][axis] -= half;
+        } else if high < -half {
+            local.c[0][axis] += half;
+        } else {
+            // Over the plate, or now over it and now beyond: no nearer than if it were over it, and closing by no
+            // more than where it is farthest beyond.
+            let (slowest, fastest) = speed.range(axis);
+            less += (high - half).max(0.0) * (-slowest).max(0.0);
+            less += (-half - low).max(0.0) * fastest.max(0.0);
+            local.c.iter_mut().for_each(|c| c[axis] = 0.0);
+        }
+    }
+    Across { way: local, less }
 }
 
 enum Reach {

@@ -2,11 +2,12 @@
 
 use glam::DVec3;
 
-use super::advance::{Search, first_contact as advance};
+use super::advance::{Search, Skip, first_contact as advance};
+use super::approach::{Across, Approach, Way, gone_after};
 use super::gap::{Ball, Gap, snap, snap_pressure};
 use crate::sim::segment::Path;
 use crate::sim::shape::direction;
-use crate::sim::tolerance::SURELY_APART;
+use crate::sim::tolerance::{STILL, SURELY_APART};
 
 /// Relative motion of `b` as seen from `a`.
 struct Relative {
@@ -33,7 +34,31 @@ pub(super) fn first_contact(a: Ball<'_>, b: Ball<'_>, from: f64, slack: impl FnO
         return tau.map(|tau| from + tau).filter(|time| *time <= until);
     }
     let acceleration_bound = (!parabolas).then(|| relative_bound(a.path, b.path));
-    advance(Search { from, until, acceleration_bound, slack: slack() }, |time| gap(a, b, time))
+    let search = Search { from, until, acceleration_bound, slack: slack() };
+    advance(search, |time| gap(a, b, time), |time| skip(a, b, search, time))
+}
+
+/// What isolating the root tells from a time on.
+#[cold]
+pub(super) fn skip(a: Ball<'_>, b: Ball<'_>, search: Search, time: f64) -> Skip {
+    let relative = relative(a, b, time);
+    let (reach, mut until) = (a.radius + b.radius, search.until);
+    if search.acceleration_bound.is_none() {
+        let way = [relative.position, relative.velocity, relative.acceleration];
+        until = until.min(time + gone_after(way, reach));
+    }
+    let approach = Approach {
+        from: time,
+        until,
+        reach,
+        distance: relative.position.length() - reach,
+        still: STILL * relative.speeds,
+        slack: search.slack,
+    };
+    approach.skip(|from, span| {
+        let way = Way::of(a.path, from, span).to(&Way::of(b.path, from, span));
+        Across { way, less: 0.0 }
+    })
 }
 
 /// Upper bound of the relative acceleration, m/s². Bodies integrated together move almost as one: what counts is
