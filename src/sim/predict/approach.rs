@@ -179,7 +179,8 @@ impl Way {
     }
 }
 
-/// Least and largest Bernstein coefficient of Σ c[k] sᵏ in 0..=1: Σ C(i, k) / C(n, k) c[k].
+/// Least and largest Bernstein coefficient of Σ c[k] sᵏ in 0..=1: Σ C(i, k) / C(n, k) c[k]. Anything may be where a
+/// piece is so long that the numbers do not reach its end.
 fn range(c: &[f64]) -> (f64, f64) {
     let n = c.len() - 1;
     let mut range = (f64::INFINITY, f64::NEG_INFINITY);
@@ -188,6 +189,9 @@ fn range(c: &[f64]) -> (f64, f64) {
         for (k, part) in c.iter().enumerate().take(i + 1) {
             sum += weight * part;
             weight *= (i - k) as f64 / (n - k).max(1) as f64;
+        }
+        if sum.is_nan() {
+            return (f64::NEG_INFINITY, f64::INFINITY);
         }
         range = (range.0.min(sum), range.1.max(sum));
     }

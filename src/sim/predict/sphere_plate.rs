@@ -1,4 +1,5 @@
-//! Sphere against plate: what a parabola has in closed form, before the search that any convex shape has.
+//! Sphere against plate: what a parabola has in closed form, before the search that any convex shape has, and the
+//! way from the plate's nearest part where that search crawls.
 
 use glam::DVec3;
 
