@@ -66,29 +66,15 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>) {
         .body(|body| {
             body.rows(ROW_HEIGHT, frame.events.len(), |mut row| {
                 if let Some(event) = frame.events.get(row.index()) {
-                    let group = place_in_group(&frame.events, row.index());
-                    show_row(&mut row, context, frame, event, group);
+                    show_row(&mut row, context, frame, event);
                 }
             });
         });
 }
 
-/// Which contact of how many it is in its impact group; `None` for one that was resolved alone.
-fn place_in_group(rows: &[Arc<EventRow>], index: usize) -> Option<(usize, usize)> {
-    let group = rows.get(index).map(|row| row.event.group).filter(|group| *group > 0)?;
-    let same = |row: &&Arc<EventRow>| row.event.group == group;
-    let before = rows[..index].iter().rev().take_while(same).count();
-    let after = rows[index..].iter().take_while(same).count();
-    (before + after > 1).then_some((before + 1, before + after))
-}
-
-fn show_row(
-    row: &mut TableRow<'_, '_>,
-    context: &AppContext<'_>,
-    frame: &Frame,
-    event: &Arc<EventRow>,
-    group: Option<(usize, usize)>,
-) {
+fn show_row(row: &mut TableRow<'_, '_>, context: &AppContext<'_>, frame: &Frame, event: &Arc<EventRow>) {
+    let [nth, of] = event.event.row_in_group;
+    let group = (of > 1).then_some((nth, of));
     let chosen = context.session.shown_event().is_some_and(|shown| shown.event.seq == event.event.seq);
     row.set_selected(chosen);
     let labels = joined(&event.a_label, &event.b_label);

@@ -208,6 +208,7 @@ mod tests {
             vn_before: -1.0,
             vn_after: 1.0,
             group: 0,
+            row_in_group: [0; 2],
         };
         Arc::new(EventRow {
             event,

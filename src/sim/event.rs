@@ -104,6 +104,8 @@ pub struct Event {
     /// Number of the impact group, from 1: the contacts of bodies that touch are resolved together and share
     /// it, one row each. 0 for events that resolve no impact.
     pub group: u64,
+    /// Which row of its group this is, from 1, and how many there are; both 0 without a group.
+    pub row_in_group: [u32; 2],
 }
 
 impl Event {
@@ -121,6 +123,7 @@ impl Event {
             vn_before: 0.0,
             vn_after: 0.0,
             group: 0,
+            row_in_group: [0; 2],
         }
     }
 }

@@ -138,8 +138,9 @@ fn list(model: &Model, state: &mut State, time: f64, group: &Group, kind: EventK
     };
     let mut rows: Vec<Event> = group.members.iter().filter(|member| group.is_felt(member)).map(row).collect();
     rows.sort_by_key(|row| (rank(model, row.a), row.b.map(|b| rank(model, b))));
-    for row in rows {
-        record(state, row);
+    let count = rows.len() as u32;
+    for (nth, row) in (1..).zip(rows) {
+        record(state, Event { row_in_group: [nth, count], ..row });
     }
 }
 

@@ -112,6 +112,7 @@ pub fn frame() -> Frame {
         vn_before: -2.0,
         vn_after: 2.0,
         group: 5,
+        row_in_group: [1; 2],
     };
     let row = EventRow {
         event,

@@ -121,7 +121,7 @@ pub fn assert_same_bits(expected: &Run, got: &Run, what: &str) {
 fn event_bits(event: &Event) -> impl PartialEq + std::fmt::Debug {
     let numbers = [event.time, event.impulse, event.vn_before, event.vn_after].map(f64::to_bits);
     let vectors = [event.point.to_array(), event.normal.to_array()].map(|v| v.map(f64::to_bits));
-    (event.seq, event.kind, event.a, event.b, event.group, numbers, vectors)
+    (event.seq, event.kind, event.a, event.b, event.group, event.row_in_group, numbers, vectors)
 }
 
 fn state_bits(state: &BodyState) -> impl PartialEq + std::fmt::Debug {
