@@ -196,3 +196,18 @@ fn simultaneous_impacts_apart_from_each_other_are_all_told() {
     };
     assert_eq!(labels, ["1", "3", "5", "50"]);
 }
+
+#[test]
+fn rows_of_a_group_know_their_place_however_one_looks() {
+    // Symptom: a row said "6/6", and "7/7" after the next look. Expected: "6/7" at once. Cause: what had been handed
+    // out of a group was counted, not what there is.
+    for sampling in [Sampling::Events, Sampling::Every(0.1)] {
+        let ids: [i64; 16] = std::array::from_fn(|k| k as i64 + 1);
+        let events = run(&billiard(&ids), 0.34, sampling).events;
+        let group: Vec<_> = events.iter().filter(|event| event.group == events[0].group).collect();
+        assert!(group.len() > 3, "{events:?}");
+        for (nth, event) in (1..).zip(&group) {
+            assert_eq!(event.row_in_group, [nth, group.len() as u32], "{event:?}");
+        }
+    }
+}
