@@ -69,7 +69,7 @@ impl Scale {
             impulse: event.impulse * self.mass * self.speed(),
             vn_before: event.vn_before * self.speed(),
             vn_after: event.vn_after * self.speed(),
-            ..event.clone()
+            ..*event
         }
     }
 }
