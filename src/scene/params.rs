@@ -59,7 +59,7 @@ pub const PARAMS: &[ParamInfo] = &[
     ParamInfo {
         name: "RestHeight",
         label: "Rest height",
-        unit: "radius",
+        unit: "radii",
         range: (0.0, 0.1),
         help: "A pressed, inelastic body whose next bounce would be lower than this share of its radius may \
                come to rest at the limit time of its remaining bounces: from 1e-5 m/s on for a radius of \
@@ -70,7 +70,7 @@ pub const PARAMS: &[ParamInfo] = &[
     ParamInfo {
         name: "RestTime",
         label: "Rest time",
-        unit: "fall time",
+        unit: "fall times",
         range: (0.0, 10.0),
         help: "Longest sum of remaining flights 2v/(g(1−e)) that is skipped when a body comes to rest, as a \
                share of the time √(2r/g) in which it would fall by its radius. The forces count as constant \
@@ -94,7 +94,7 @@ pub const PARAMS: &[ParamInfo] = &[
     ParamInfo {
         name: "ContactDistance",
         label: "Contact distance",
-        unit: "radius",
+        unit: "radii",
         range: (1e-12, 1e-2),
         help: "Bodies nearer than this share of the smaller radius at an impact touch: they are resolved as \
                one group. Overlaps at the start are reported above it. Above rounding at map sizes up to \
