@@ -118,8 +118,9 @@ impl Run {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test fails by stopping")]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by stopping")]
+
     use std::sync::Arc;
     use std::sync::atomic::{AtomicBool, Ordering};
 

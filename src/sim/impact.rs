@@ -21,7 +21,7 @@ use super::restart::{Start, restart};
 use super::restitution::{Blow, blow, reduced_mass};
 use super::settle::{Settling, settle};
 use super::state::State;
-use super::tolerance::MEMORY;
+use super::tolerance::{FALLING, MEMORY};
 
 /// Two bodies touch while closing. `also` are impacts of the same instant, of which those connected with it
 /// are resolved too and taken out.
@@ -70,10 +70,14 @@ fn collapse(model: &Model, state: &mut State, group: &mut Group) -> bool {
     }
     note_lossy(model, state, impacts);
     if group.resolve(model.params.collapse_share) {
-        let lossy = |member: &&Member| {
+        let is_lossy = |member: &&Member| {
             member.impulse > 0.0 && member.restitution < 1.0 && are_both_free(state, member.pair)
         };
-        collapsed.extend(group.members.iter().filter(lossy).flat_map(|member| member.pair.dynamic()));
+        let lossy: Vec<Pair> = group.members.iter().filter(is_lossy).map(|member| member.pair).collect();
+        // One pair on what is fixed comes to rest.
+        if lossy.len() > 1 {
+            collapsed.extend(lossy.iter().flat_map(Pair::dynamic));
+        }
     }
     report_collapse(state, collapsed)
 }
@@ -235,12 +239,13 @@ fn make(state: &mut State, member: &Member, settling: &Settling) {
     }
 }
 
-/// Whether the speed at which a lossy pair of dynamic bodies closes is what an inelastic collapse leaves: next to
-/// nothing of what its bodies met others with. Elastic pairs make no collapse, and a lone body comes to rest on
-/// what is fixed.
+/// Whether the speed at which a lossy pair of dynamic bodies closes is what an inelastic collapse leaves: step by
+/// step, next to nothing of what its bodies met others with. A soft touch after a hard blow is none. Elastic pairs
+/// make no collapse, and a lone body comes to rest on what is fixed.
 fn is_collapsing(model: &Model, state: &State, pair: Pair, closing: f64) -> bool {
     let restitution = restitution_of(model, pair);
-    let references = pair.dynamic().map(|body| state.cascades[body as usize].reference);
+    let falling = |body: u32| Some(state.cascades[body as usize]).filter(|cascade| cascade.since >= FALLING);
+    let references = pair.dynamic().filter_map(falling).map(|cascade| cascade.reference);
     are_both_free(state, pair)
         && 0.0 < restitution
         && restitution < 1.0
@@ -259,7 +264,9 @@ fn note_lossy(model: &Model, state: &mut State, impacts: impl IntoIterator<Item 
         let is_collapsing = is_collapsing(model, state, pair, closing);
         for body in [pair.first(), other] {
             let cascade = &mut state.cascades[body as usize];
-            cascade.reference = closing.max(MEMORY * cascade.reference);
+            let remembered = MEMORY * cascade.reference;
+            cascade.since = if closing >= remembered { 0 } else { cascade.since.saturating_add(1) };
+            cascade.reference = closing.max(remembered);
             cascade.is_reported &= is_collapsing;
         }
     }

@@ -68,6 +68,8 @@ pub(super) struct FieldColumn {
 pub(super) struct Cascade {
     /// Closing speed of the fastest of the last ones, m/s.
     pub reference: f64,
+    /// How many there were since.
+    pub since: u32,
     /// Whether a collapse was reported since.
     pub is_reported: bool,
 }

@@ -97,6 +97,10 @@ pub(super) const NO_CHANGE: f64 = 64.0 * f64::EPSILON;
 /// heaps are followed for longer; larger, what carries a body along is stopped.
 pub(super) const MOST_LEVELLED: f64 = 2.0;
 
+/// Impacts over which speeds must have fallen for a collapse. Fewer, and a soft touch after a hard blow counts as one;
+/// more, and a steep collapse is followed to where its speeds are rounding.
+pub(super) const FALLING: u32 = 8;
+
 /// What part of the reference speed of a collapse each impact leaves: it is forgotten after some hundred. Less, and
 /// slow collapses are not told from a gas that cools; more, and a body remembers blows of long ago.
 pub(super) const MEMORY: f64 = 1.0 - 1.0 / 256.0;
