@@ -14,7 +14,7 @@ use crate::sim::{Event, Fault, Progress, SimEdit, Simulation};
 const MAX_ROWS: usize = 20_000;
 
 /// Predictions carried out between two looks at the budget: a Δt may hold millions that are no events.
-pub(super) const PREDICTIONS: u32 = 64;
+pub(super) const PREDICTIONS: u32 = 16;
 
 /// A loaded simulation with its Δt grid and its past.
 #[derive(Debug)]

@@ -110,7 +110,7 @@ impl Group {
     /// Whether a contact took part in the impact by more than the rounding of its speeds.
     pub fn is_felt(&self, member: &Member) -> bool {
         let change = member.impulse * member.link.response(&member.link, &self.bodies.inverse_mass);
-        change > self.rounding(member).max(16.0 * f64::EPSILON * self.fastest)
+        change > self.rounding(member).max(NO_CHANGE * self.fastest)
     }
 
     /// Rounds of reflections until nothing closes; whether closing speeds fell without end, so that the rest was
@@ -128,11 +128,15 @@ impl Group {
             if is_plastic || is_far_gone {
                 break;
             }
+            let before = self.bodies.v.clone();
             if round < rounds {
                 self.split(&closing).iter().for_each(|coupled| self.reflect(coupled));
             } else {
                 // A light body between heavy ones would be thrown to and fro some √(M/m) times.
                 self.reflect(&(0..self.members.len()).collect::<Vec<_>>());
+            }
+            if self.bodies.v == before {
+                break;
             }
         }
         self.take_up();

@@ -187,7 +187,9 @@ pub(super) fn begin_island(
     let at_rest: Vec<Link> =
         island.links(model).into_iter().map(|link| Link { limit: 0.0, ..link }).collect();
     // Takes the rounding out of velocities: contacts that the bodies leave or enter have been dropped.
+    let before = island.v.clone();
     stay_on(&at_rest, &island.inverse_mass, &mut island.v);
+    book(state, island, &before);
     let links = island.links(model);
     let mut accelerations = island.free(model, time);
     let solved = enter_none(&links, &island.inverse_mass, &mut accelerations);
@@ -215,6 +217,17 @@ pub(super) fn begin_island(
         place(model, state, *body, segment, column);
     }
     Ok(())
+}
+
+/// Books what the surfaces took of velocities that pointed into them or away.
+fn book(state: &mut State, island: &Island, before: &[DVec3]) {
+    for ((old, new), inverse_mass) in before.iter().zip(&island.v).zip(&island.inverse_mass) {
+        if old != new {
+            let way = *new - *old;
+            state.account.impulses.add(way / *inverse_mass);
+            state.account.impact_losses.add(-0.5 * way.dot(*new + *old) / *inverse_mass);
+        }
+    }
 }
 
 /// Whether nothing about the contacts and forces of an island will change along parabolas.

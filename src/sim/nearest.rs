@@ -71,7 +71,10 @@ pub(super) fn responses(links: &[Link], inverse_mass: &[f64]) -> Vec<f64> {
         }
     }
     for (active, inverse) in search.active.iter().zip(inverse) {
-        responses[active.link] = 1.0 / inverse;
+        let beside_others = 1.0 / inverse;
+        if beside_others > SHARING * SHARING * responses[active.link] {
+            responses[active.link] = beside_others;
+        }
     }
     responses
 }
@@ -94,6 +97,8 @@ struct Active {
     direction: Direction,
     /// Square of its length.
     norm: f64,
+    /// The motion along it where the bound is met.
+    target: f64,
 }
 
 /// Mass of a body, kg; 0 for one without inverse mass: no motion of it is ever compared with another.
@@ -148,6 +153,7 @@ impl<'a> Search<'a> {
         }
         // Each bound added moves the motion away from its start, so none is met twice in the same company.
         for _ in 0..8 * self.links.len() + 8 {
+            self.clean();
             let Some(worst) = self.worst() else { return };
             self.meet(worst, 1.0);
         }
@@ -202,6 +208,21 @@ impl<'a> Search<'a> {
             .map(|(k, _)| k)
     }
 
+    /// Takes out what rounding has left along the active directions: of links in all but the same direction the others
+    /// would seem to overstep by it.
+    fn clean(&mut self) {
+        for k in 0..self.active.len() {
+            let active = &self.active[k];
+            let left = (self.along(&active.direction) - active.target) / active.norm;
+            for (w, d) in self.at.iter_mut().zip(&self.active[k].direction.bodies) {
+                *w -= left * *d;
+            }
+            for (w, d) in self.at_own.iter_mut().zip(&self.active[k].direction.own) {
+                *w -= left * d;
+            }
+        }
+    }
+
     /// Moves to where a link is at its limit, and lets those go that would have to pull.
     fn meet(&mut self, link: usize, sign: f64) {
         let mut multiplier = 0.0;
@@ -209,7 +230,8 @@ impl<'a> Search<'a> {
             let (coefficients, direction, norm) = self.beside_active(link, sign);
             let relief = self.relief(&coefficients);
             let blocking = self.blocking(&relief);
-            let full = (norm > 0.0).then(|| self.full_step(link, sign, &direction, norm));
+            let target = self.target(link, sign, &coefficients);
+            let full = (norm > 0.0).then(|| self.full_step(link, &direction, norm, target));
             let step = match (full, blocking) {
                 (Some(full), Some((_, blocked))) => full.min(blocked),
                 (Some(full), None) => full,
@@ -227,7 +249,7 @@ impl<'a> Search<'a> {
             }
             multiplier += step;
             if full == Some(step) {
-                self.active.push(Active { link, sign, multiplier, coefficients, direction, norm });
+                self.active.push(Active { link, sign, multiplier, coefficients, direction, norm, target });
                 return;
             }
             if let Some((position, _)) = blocking {
@@ -236,14 +258,28 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The step after which a link is at its limit. What it oversteps by rounding is left where taking it out would
+    /// The step after which a link is at its limit: a projection along its own direction, so that the motion grows
+    /// shorter whatever rounding the others leave. What it oversteps by rounding is left where taking it out would
     /// cost more than rounding: of two links in all but the same direction.
-    fn full_step(&self, link: usize, sign: f64, direction: &Direction, norm: f64) -> f64 {
-        let excess = self.excess(link);
-        let step = sign * excess / norm;
+    fn full_step(&self, link: usize, direction: &Direction, norm: f64, target: f64) -> f64 {
+        let excess = self.along(direction) - target;
+        let step = if self.both[link] { excess / norm } else { (excess / norm).max(0.0) };
         let costs = |(d, size): (&DVec3, &f64)| step.abs() * d.length() > LEFT_OVER * size;
         let is_rounding = excess.abs() <= self.tolerance(link);
         if is_rounding && direction.bodies.iter().zip(&self.sizes).any(costs) { 0.0 } else { step }
+    }
+
+    /// The motion along a link's own direction at its limit: the limit itself, less what is met along the others.
+    fn target(&self, link: usize, sign: f64, coefficients: &[f64]) -> f64 {
+        let met =
+            coefficients.iter().zip(&self.active).map(|(coefficient, active)| coefficient * active.target);
+        sign * self.links[link].limit - met.sum::<f64>()
+    }
+
+    fn along(&self, direction: &Direction) -> f64 {
+        let bodies = self.at.iter().zip(&direction.bodies).zip(&self.weights);
+        let own = self.at_own.iter().zip(&direction.own);
+        bodies.map(|((w, d), weight)| weight * w.dot(*d)).sum::<f64>() + own.map(|(w, d)| w * d).sum::<f64>()
     }
 
     fn go(&mut self, direction: &Direction, step: f64) {
@@ -330,18 +366,26 @@ impl<'a> Search<'a> {
         let later = self.active.split_off(position);
         for old in later.into_iter().skip(1) {
             let (coefficients, direction, norm) = self.beside_active(old.link, old.sign);
-            self.active.push(Active { coefficients, direction, norm: norm.max(f64::MIN_POSITIVE), ..old });
+            let target = self.target(old.link, old.sign, &coefficients);
+            let norm = norm.max(f64::MIN_POSITIVE);
+            self.active.push(Active { coefficients, direction, norm, target, ..old });
         }
     }
 
-    /// Whether a link at its limit is a combination of active ones: what they carry, it could carry.
+    /// Whether a link at its limit is next to a combination of active ones: what they carry, it could carry.
     fn has_shared_loads(&self) -> bool {
         (0..self.links.len()).any(|k| {
             !self.both[k]
                 && !self.active.iter().any(|active| active.link == k)
                 && self.excess(k).abs() <= self.tolerance(k)
-                && self.beside_active(k, 1.0).2 == 0.0
+                && self.is_combination(k)
         })
+    }
+
+    fn is_combination(&self, link: usize) -> bool {
+        let normal = self.normal(link, 1.0);
+        let (_, rest, _) = self.beside_active(link, 1.0);
+        self.inner(&rest, &rest) <= SHARING * SHARING * self.inner(&normal, &normal)
     }
 }
 

@@ -215,7 +215,9 @@ pub(super) fn predict_later(model: &Model, state: &mut State, pair: Pair, time: 
     let gap = gap_of(model, state, pair, time);
     let slack = predict::touch_tolerance(gap.point, larger_radius(model, pair));
     let integrated = pair.dynamic().map(|body| state.path(body)).filter(|path| path.series.is_some());
-    let bend = integrated.map(|path| -path.segment.acceleration_bound).fold(gap.bend, f64::min);
+    // Past an edge the surfaces bend apart now, and no more when they have parted: only the drive bounds.
+    let bend =
+        integrated.map(|path| -path.segment.acceleration_bound).fold(gap.bend.min(gap.drive), f64::min);
     if let Some(tau) = first_root(slack, gap.rate, bend) {
         predict_pair(model, state, pair, time + tau.max(LATER_ROUNDING * time), time);
     }

@@ -9,7 +9,7 @@ use crate::record::{Exceeded, Watch};
 use crate::sim::{Fault, Progress, Simulation};
 
 /// Predictions carried out between two looks at the clock: a Δt may hold millions that are no events.
-const PREDICTIONS: u32 = 64;
+const PREDICTIONS: u32 = 16;
 
 /// Why a run ended.
 #[derive(Clone, Debug, PartialEq)]

@@ -181,7 +181,7 @@ Events, one row per contact:
   a has the smaller UserID; b is null for an event of one body
   point is on the surfaces, in m; normal is the unit vector from a to b
   impulse is in N·s; vn is the speed of b against a along normal, in m/s
-  group numbers the impacts, each of which is a group of its own: those of the same instant
-  are resolved one after the other; it is 0 for other kinds; dt_index is the Δt, from 1
+  group numbers the impacts and collapses: the contacts of bodies that touch are resolved
+  together and share it, one row each; it is 0 for other kinds; dt_index is the Δt, from 1
 
 Ids are UserIDs; the k-th body of a repeated UserID is called UserID#k.";
