@@ -9,7 +9,7 @@
 use glam::DVec3;
 
 use super::link::Link;
-use super::tolerance::{DEPENDENT, ENTERING, LEFT_OVER, SHARING};
+use super::tolerance::{DEPENDENT, ENTERING, LEFT_OVER, ONE_DIRECTION, SHARING};
 
 /// What [`nearest`] finds besides the motion.
 #[derive(Clone, Debug)]
@@ -71,10 +71,7 @@ pub(super) fn responses(links: &[Link], inverse_mass: &[f64]) -> Vec<f64> {
         }
     }
     for (active, inverse) in search.active.iter().zip(inverse) {
-        let beside_others = 1.0 / inverse;
-        if beside_others > SHARING * SHARING * responses[active.link] {
-            responses[active.link] = beside_others;
-        }
+        responses[active.link] = 1.0 / inverse;
     }
     responses
 }
@@ -385,7 +382,7 @@ impl<'a> Search<'a> {
     fn is_combination(&self, link: usize) -> bool {
         let normal = self.normal(link, 1.0);
         let (_, rest, _) = self.beside_active(link, 1.0);
-        self.inner(&rest, &rest) <= SHARING * SHARING * self.inner(&normal, &normal)
+        self.inner(&rest, &rest) <= ONE_DIRECTION * ONE_DIRECTION * self.inner(&normal, &normal)
     }
 }
 
@@ -423,5 +420,37 @@ mod tests {
         let mut motion = [DVec3::X, DVec3::ZERO];
         let solved = nearest(&[link], &[false], &[0.0, 0.0], &mut motion);
         assert_eq!((motion, solved.multipliers), ([DVec3::X, DVec3::ZERO], vec![0.0]));
+    }
+
+    /// Symptom: levelling a jam made energy of rounding. Expected: the motion found is a projection, (v − p)·p = 0 in
+    /// the metric of masses, however near to each other the normals are. Cause: a step along what is left of a
+    /// normal was measured by what the link enters, in which the rounding left along the others is enlarged.
+    #[test]
+    fn what_is_found_is_a_projection_for_normals_in_all_but_one_direction() {
+        let mut seed = 1_u64;
+        let mut random = move || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        };
+        for case in 0..4000 {
+            let apart = libm::exp(-30.0 * f64::from(case % 97) / 97.0);
+            let bodies = 2 + case as usize % 4;
+            let inverse_mass: Vec<f64> = (0..bodies).map(|_| libm::exp(4.0 * random())).collect();
+            let along = DVec3::new(random(), random(), random()).normalize();
+            let link = |k: usize, random: &mut dyn FnMut() -> f64| {
+                let towards = (along + apart * DVec3::new(random(), random(), random())).normalize();
+                Link { a: k % bodies, b: (k % 3 != 0).then_some((k + 1) % bodies), towards, limit: 0.0 }
+            };
+            let links: Vec<Link> = (0..2 * bodies).map(|k| link(k, &mut random)).collect();
+            let both: Vec<bool> = (0..links.len()).map(|k| k % 2 == case as usize % 2).collect();
+            let start: Vec<DVec3> = (0..bodies).map(|_| DVec3::new(random(), random(), random())).collect();
+            let mut found = start.clone();
+            nearest(&links, &both, &inverse_mass, &mut found);
+            let of = |u: &[DVec3], v: &[DVec3]| -> f64 {
+                u.iter().zip(v).zip(&inverse_mass).map(|((u, v), inverse)| u.dot(*v) / inverse).sum()
+            };
+            let (whole, left, across) = (of(&start, &start), of(&found, &found), of(&start, &found));
+            assert!((across - left).abs() <= 1e-12 * whole, "case {case}, {apart:e}: {:e}", across - left);
+        }
     }
 }

@@ -84,8 +84,30 @@ fn links_of(candidates: &[Candidate], links: &[Link]) -> Vec<Link> {
     candidates.iter().map(|candidate| links[candidate.member]).collect()
 }
 
-/// Drops contacts whose bounces go on for long: what presses them together while all others hold is what each
-/// carries then.
+/// What presses the bodies of each contact together, m/s²: while all others hold, or while those hold that touch,
+/// whichever is more. A ball on another that bounces falls with it, and returns only as far as that one holds; a ball
+/// beside a seam returns to both plates at once, and neither holds it for the other.
+fn pressing(group: &Group, candidates: &[Candidate], free: &[DVec3], links: &[Link]) -> Vec<f64> {
+    let inverse_mass = &group.bodies.inverse_mass;
+    let held = links_of(candidates, links);
+    let loads = enter_none(&held, inverse_mass, &mut free.to_vec()).multipliers;
+    let loaded: Vec<usize> = (0..held.len()).filter(|k| loads[*k] > 0.0).collect();
+    let loaded_links: Vec<Link> = loaded.iter().map(|k| held[*k]).collect();
+    let touching: Vec<Link> = candidates
+        .iter()
+        .filter(|candidate| candidate.touches)
+        .map(|candidate| links[candidate.member])
+        .collect();
+    let mut motion = free.to_vec();
+    enter_none(&touching, inverse_mass, &mut motion);
+    let mut pressing: Vec<f64> = held.iter().map(|link| link.entering(&motion) - link.limit).collect();
+    for (k, response) in loaded.iter().zip(responses(&loaded_links, inverse_mass)) {
+        pressing[*k] = pressing[*k].max(loads[*k] * response);
+    }
+    pressing
+}
+
+/// Drops contacts whose bounces go on for long.
 fn drop_bouncing(
     model: &Model,
     group: &Group,
@@ -94,14 +116,7 @@ fn drop_bouncing(
     links: &[Link],
 ) {
     while candidates.iter().any(|candidate| !candidate.touches) {
-        let held = links_of(candidates, links);
-        let loads = enter_none(&held, &group.bodies.inverse_mass, &mut free.to_vec()).multipliers;
-        let loaded: Vec<usize> = (0..held.len()).filter(|k| loads[*k] > 0.0).collect();
-        let pressed: Vec<Link> = loaded.iter().map(|k| held[*k]).collect();
-        let mut pressing = vec![0.0; held.len()];
-        for (k, response) in loaded.iter().zip(responses(&pressed, &group.bodies.inverse_mass)) {
-            pressing[*k] = loads[*k] * response;
-        }
+        let pressing = pressing(group, candidates, free, links);
         let count = candidates.len();
         let mut of = pressing.into_iter();
         candidates.retain_mut(|candidate| {

@@ -125,6 +125,11 @@ pub(super) const DEPENDENT: f64 = 1e-13;
 /// What is left of a motion below this part of what was taken from it is rounding, and would creep.
 pub(super) const LEFT_OVER: f64 = 64.0 * f64::EPSILON;
 
+/// Normals of which less than this part is left beside others are of one direction with them: what one carries, the
+/// others could. Smaller, a ball beside a seam presses on one of two plates only; larger, a heavy ball on a light one,
+/// of which the root of the mass ratio is left, seems to press on the floor.
+pub(super) const ONE_DIRECTION: f64 = 1e-9;
+
 /// Part of a normal's length that is a direction of its own where loads are shared: bounds that depend on each other
 /// then have one answer, that of the least forces. It is off by the square of this, which is made good afterwards,
 /// and by roundings over that square.

@@ -53,8 +53,8 @@ pub struct ContactScene {
 /// Of all balls, before the scene is scaled, m.
 const RADIUS: f64 = 0.5;
 const GRAVITY: f64 = -9.8;
-/// Events that a handful of balls may need in a few seconds until they lie.
-const FEW: u64 = 20_000;
+/// Events that a handful of balls may need in a few seconds until they lie: a stall makes as many in no time.
+const FEW: u64 = 50_000;
 
 /// The scene of a family and a seed, of balls of half a metre.
 pub fn contact_scene(family: Family, seed: u64) -> ContactScene {
