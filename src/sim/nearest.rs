@@ -439,7 +439,12 @@ mod tests {
             let along = DVec3::new(random(), random(), random()).normalize();
             let link = |k: usize, random: &mut dyn FnMut() -> f64| {
                 let towards = (along + apart * DVec3::new(random(), random(), random())).normalize();
-                Link { a: k % bodies, b: (k % 3 != 0).then_some((k + 1) % bodies), towards, limit: 0.0 }
+                Link {
+                    a: k % bodies,
+                    b: (!k.is_multiple_of(3)).then_some((k + 1) % bodies),
+                    towards,
+                    limit: 0.0,
+                }
             };
             let links: Vec<Link> = (0..2 * bodies).map(|k| link(k, &mut random)).collect();
             let both: Vec<bool> = (0..links.len()).map(|k| k % 2 == case as usize % 2).collect();
