@@ -423,8 +423,9 @@ mod tests {
     }
 
     /// Symptom: levelling a jam made energy of rounding. Expected: the motion found is a projection, (v − p)·p = 0 in
-    /// the metric of masses, for normals that differ by 2e-9 or more (nearer ones lose digits to dropped bounds). Cause: a step along what is left of a
-    /// normal was measured by what the link enters, in which the rounding left along the others is enlarged.
+    /// the metric of masses, for normals that differ by 2e-9 or more (nearer ones lose digits to dropped bounds).
+    /// Cause: a step along what is left of a normal was measured by what the link enters, in which the rounding left
+    /// along the others is enlarged.
     #[test]
     fn what_is_found_is_a_projection_for_normals_in_all_but_one_direction() {
         let mut seed = 1_u64;
