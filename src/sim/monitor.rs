@@ -8,7 +8,7 @@ use super::model::Model;
 use super::pair::Pair;
 use super::report::Tiling;
 use super::state::State;
-use crate::scene::{Diagnostic, Severity};
+use crate::scene::{Diagnostic, NodeKey, Severity};
 
 /// Deepest overlap at `time` of any two bodies that share a tile, m, ≥ 0.
 pub(super) fn worst_overlap(model: &Model, state: &State, time: f64) -> f64 {
@@ -95,26 +95,23 @@ fn meters(length: f64) -> String {
 }
 
 fn warning(identity: &Identity, message: String, hint: &str) -> Diagnostic {
+    about(Some(identity.key), message, hint)
+}
+
+fn about(key: Option<NodeKey>, message: String, hint: &str) -> Diagnostic {
     Diagnostic {
         severity: Severity::Warning,
         position: None,
         path: String::new(),
         message,
         hint: hint.into(),
-        key: Some(identity.key),
+        key,
     }
 }
 
 /// A warning about no body in particular.
 fn about_all(message: String, hint: &str) -> Diagnostic {
-    Diagnostic {
-        severity: Severity::Warning,
-        position: None,
-        path: String::new(),
-        message,
-        hint: hint.into(),
-        key: None,
-    }
+    about(None, message, hint)
 }
 
 /// Overlaps, and bodies outside the map, listed at most: bodies piled on one point would give as many as there
