@@ -209,6 +209,7 @@ mod tests {
             vn_after: 1.0,
             group: 0,
             row_in_group: [0; 2],
+            bodies: 2,
         };
         Arc::new(EventRow {
             event,

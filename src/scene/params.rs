@@ -11,6 +11,8 @@ pub struct SimParams {
     pub contact_distance: f64,
     pub core_radius: f64,
     pub static_tile_limit: f64,
+    pub dense_step: f64,
+    pub stick_speed: f64,
 }
 
 impl Default for SimParams {
@@ -23,6 +25,8 @@ impl Default for SimParams {
             contact_distance: 2e-9,
             core_radius: 1e-6,
             static_tile_limit: 4096.0,
+            dense_step: 0.0,
+            stick_speed: 0.0,
         }
     }
 }
@@ -123,5 +127,27 @@ pub const PARAMS: &[ParamInfo] = &[
                looks through, so that a huge plate does not fill the memory. Changes speed only.",
         get: |p| p.static_tile_limit,
         set: |p, v| p.static_tile_limit = v.round(),
+    },
+    ParamInfo {
+        name: "DenseStep",
+        label: "Dense step",
+        unit: "s",
+        range: (0.0, 1.0),
+        help: "Length of the steps in which bodies go on that touch too often for events. At 0 it is the \
+               largest power of two of at most √(2e-4 r/g), for the smallest radius and the strongest \
+               acceleration: about a millisecond for balls of five centimetres on Earth. Impacts among such \
+               bodies are off by as much; smaller is more exact and slower.",
+        get: |p| p.dense_step,
+        set: |p, v| p.dense_step = v,
+    },
+    ParamInfo {
+        name: "StickSpeed",
+        label: "Stick speed",
+        unit: "m/s",
+        range: (0.0, 1e3),
+        help: "Closing speed v_s up to which bodies do not rebound, as wet or sticky ones: the restitution \
+               becomes e·max(0, 1 − v_s/v). At 0 it does not depend on the speed, as for dry bodies.",
+        get: |p| p.stick_speed,
+        set: |p, v| p.stick_speed = v,
     },
 ];

@@ -6,6 +6,7 @@ use super::account::{Account, Sum, VectorSum};
 use super::force::{ForceEntry, Law, Subject};
 use super::model::Model;
 use super::motion::integrate;
+use super::place::Place;
 use super::report::{Energy, Momentum};
 use super::state::State;
 
@@ -64,6 +65,11 @@ fn has_unknown_work(model: &Model, state: &State, body: u32, time: f64) -> bool 
     model.forces.iter().any(custom)
         && time > state.segments[body as usize].start
         && potential(model, &subject(model, state, body, time)).is_none()
+}
+
+/// Potential energy of a body if it were at x, J; `None` when a force has no potential.
+pub(super) fn potential_of(model: &Model, body: u32, time: f64, x: DVec3) -> Option<f64> {
+    potential(model, &model.subject(body, time, Place::exact(x), DVec3::ZERO))
 }
 
 /// Sum over the forces, J; `None` when one has no potential.

@@ -8,6 +8,7 @@ use glam::DVec3;
 use super::body::BodyId;
 use super::books::{book_segment, energies, momentum_value};
 use super::compile::{check_force, compile_body};
+use super::dense::step_length;
 use super::drive::begin_all;
 use super::edit::{EditRefused, SimEdit};
 use super::event::{BodyRef, Event, EventKind};
@@ -48,7 +49,7 @@ pub(super) fn apply(model: &mut Model, state: &mut State, edit: &SimEdit) -> Res
         SimEdit::Mass(key, mass) => Some(set_mass(model, *key, *mass)?),
         SimEdit::ChangeStatic(body) => Some(change_static(model, state, body)?),
     };
-    model.plan = plan_of(model);
+    plan_anew(model, state);
     restart_all(model, state, &before, body).map_err(|fault| EditRefused(fault.to_string()))
 }
 
@@ -60,7 +61,7 @@ pub(super) fn add_custom(
 ) -> Result<(), EditRefused> {
     let before = Books::read(model, state);
     model.forces.push(ForceEntry { key: None, law: Law::Custom(force) });
-    model.plan = plan_of(model);
+    plan_anew(model, state);
     restart_all(model, state, &before, None).map_err(|fault| EditRefused(fault.to_string()))
 }
 
@@ -74,9 +75,18 @@ pub(super) fn remove_custom(
     let Some(index) = model.forces.iter().position(is_it) else { return Ok(false) };
     let before = Books::read(model, state);
     model.forces.remove(index);
-    model.plan = plan_of(model);
+    plan_anew(model, state);
     restart_all(model, state, &before, None).map_err(|fault| EditRefused(fault.to_string()))?;
     Ok(true)
+}
+
+/// What the changed scene needs.
+fn plan_anew(model: &mut Model, state: &State) {
+    model.plan = plan_of(model);
+    if model.plan.stepped_groups || state.dense.is_some() {
+        let at = |body| (state.position(body, state.now), state.velocity(body, state.now));
+        model.dense_step = step_length(model, at);
+    }
 }
 
 /// Energy and momentum before an edit. The segments' work must be booked under the old forces.

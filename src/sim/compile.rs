@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::{DMat3, DVec3};
 
 use super::body::{Bodies, Body, Identity, Origin};
+use super::dense::step_length;
 use super::force::{ForceEntry, Law};
 use super::method::Method;
 use super::model::Model;
@@ -53,10 +54,17 @@ pub(super) fn compile(scene: &Scene, method: Method) -> Result<(Model, Vec<Origi
         forces,
         grid,
         static_tiles,
+        dense_step: 0.0,
         plan: Plan::default(),
         start_warnings: Vec::new(),
     };
     model.plan = plan_of(&model);
+    if model.plan.stepped_groups {
+        model.dense_step = step_length(&model, |body| {
+            let origin = &origins[body as usize];
+            (origin.position, origin.velocity)
+        });
+    }
     Ok((model, origins))
 }
 

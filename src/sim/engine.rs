@@ -2,6 +2,7 @@
 
 use super::capture::free_unheld;
 use super::close_pass::pass_core;
+use super::dense::{self, Dense, Role};
 use super::event::EventKind;
 use super::fault::Fault;
 use super::geometry::{contact_distance, gap_of, larger_radius};
@@ -20,7 +21,15 @@ use super::tolerance::{FOUND, TIME_ROUNDING};
 /// Carries out the next predicted event that is not after `state.until`; false when there is none.
 /// What it has to report is left in the outbox.
 pub(super) fn advance(model: &Model, state: &mut State) -> Result<bool, Fault> {
-    let Some(next) = pop(state, state.until) else { return Ok(false) };
+    let step_at = dense::next_step(state);
+    let Some(next) = pop(state, state.until.min(step_at)) else {
+        if step_at > state.until {
+            return Ok(false);
+        }
+        state.reached = step_at;
+        step_groups(model, state, step_at)?;
+        return Ok(true);
+    };
     debug_assert!(next.time >= state.reached, "predictions come in the order of time: {next:?}");
     state.reached = next.time;
     match next.kind {
@@ -29,6 +38,7 @@ pub(super) fn advance(model: &Model, state: &mut State) -> Result<bool, Fault> {
         Kind::CorePass => pass_core(model, state, &next)?,
         Kind::Settled => settled(model, state, &next),
         Kind::ContactEnd => leave_contact(model, state, &next)?,
+        Kind::Reach => dense::reach(model, state, next.a, next.b.index(), next.time)?,
         Kind::Impact => meet(model, state, &next)?,
     }
     tidy(state);
@@ -53,12 +63,30 @@ fn tidy(state: &mut State) {
 /// Begins segments for all bodies at `state.now` and predicts everything: any of them may be concerned.
 pub(super) fn begin_all(model: &Model, state: &mut State) -> Result<(), Fault> {
     free_unheld(model, state);
+    prepare_groups(model, state);
     let starts: Vec<Start> = model
         .present()
+        .filter(|body| state.role(*body) == Role::Outside)
         .map(|body| (body, state.segments[body as usize]))
         .map(|(body, segment)| Start { body, x: segment.x, v: segment.v })
         .collect();
-    restart(model, state, state.now, &starts)
+    restart(model, state, state.now, &starts)?;
+    dense::wake_all(model, state, state.now)
+}
+
+/// Makes room for stepped groups where the scene can have them.
+fn prepare_groups(model: &Model, state: &mut State) {
+    if model.dense_step > 0.0 && state.dense.is_none() {
+        state.dense = Some(Box::new(Dense::new(state.segments.len())));
+    }
+}
+
+/// The ends of the steps of stepped groups: they go on, and who has left goes on from event to event.
+fn step_groups(model: &Model, state: &mut State, time: f64) -> Result<(), Fault> {
+    let left = dense::step(model, state, time)?;
+    let starts: Vec<Start> =
+        left.iter().map(|left| Start { body: left.body, x: left.x, v: left.v }).collect();
+    restart(model, state, time, &starts)
 }
 
 /// The end of a segment: the next one goes on from there.
@@ -82,6 +110,9 @@ fn meet(model: &Model, state: &mut State, next: &Predicted) -> Result<(), Fault>
             predict_later(model, state, pair, time);
         }
         return Ok(());
+    }
+    if pair.dynamic().any(|body| state.role(body) != Role::Outside) {
+        return dense::enter(model, state, &pair.dynamic().collect::<Vec<u32>>(), time);
     }
     let [also, rest] = simultaneous(model, state, pair, time, &gap);
     let mut left: Vec<Pair> = also.iter().map(Predicted::pair).collect();

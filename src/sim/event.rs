@@ -36,10 +36,15 @@ pub enum EventKind {
     Collapse,
     /// The scene was edited while it ran.
     Edit,
+    /// Bodies that touch too often for events are stepped from now on: `bodies` of them, for which the one of the
+    /// smallest UserID stands.
+    Dense,
+    /// Stepped bodies came to rest together.
+    GroupRest,
 }
 
 impl EventKind {
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 10] = [
         Self::Impact,
         Self::Rest,
         Self::Slide,
@@ -48,10 +53,12 @@ impl EventKind {
         Self::Captured,
         Self::Collapse,
         Self::Edit,
+        Self::Dense,
+        Self::GroupRest,
     ];
 
     /// The name used in files: `impact`, `rest`, `slide`, `lift_off`, `singular_pass`, `captured`,
-    /// `collapse`, `edit`.
+    /// `collapse`, `edit`, `dense`, `group_rest`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Impact => "impact",
@@ -62,6 +69,8 @@ impl EventKind {
             Self::Captured => "captured",
             Self::Collapse => "collapse",
             Self::Edit => "edit",
+            Self::Dense => "dense",
+            Self::GroupRest => "group_rest",
         }
     }
 
@@ -76,6 +85,8 @@ impl EventKind {
             Self::Captured => "a body bound to the core of a point attractor stays there from now on",
             Self::Collapse => "inelastic collapse: impacts without end, taken plastically until it is quiet",
             Self::Edit => "the scene was edited while it ran",
+            Self::Dense => "bodies that touch too often for events are stepped together from now on",
+            Self::GroupRest => "bodies that were stepped together came to rest",
         }
     }
 }
@@ -102,10 +113,12 @@ pub struct Event {
     pub vn_before: f64,
     pub vn_after: f64,
     /// Number of the impact group, from 1: the contacts of bodies that touch are resolved together and share
-    /// it, one row each. 0 for events that resolve no impact.
+    /// it, one row each; stepped bodies have the number that they entered with. 0 for other events.
     pub group: u64,
     /// Which row of its group this is, from 1, and how many there are; both 0 without a group.
     pub row_in_group: [u32; 2],
+    /// How many bodies it is about.
+    pub bodies: u32,
 }
 
 impl Event {
@@ -124,6 +137,7 @@ impl Event {
             vn_after: 0.0,
             group: 0,
             row_in_group: [0; 2],
+            bodies: 1,
         }
     }
 }

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::body::BodyId;
 use super::event::{Event, EventKind};
-use super::geometry::restitution_of;
+use super::geometry::restitution_at;
 use super::ledger::{contact_event, in_id_order, record};
 use super::model::Model;
 use super::pair::Pair;
@@ -16,7 +16,7 @@ use super::state::State;
 /// along the normal, N·s; the first takes the opposite.
 pub(super) fn exchange(model: &Model, state: &mut State, time: f64, pair: Pair, gap: &Gap) -> f64 {
     let moved = reduced_mass(mass(model, state, pair.a), mass(model, state, pair.b));
-    let Blow { impulse, parting, loss } = blow(moved, restitution_of(model, pair), -gap.rate);
+    let Blow { impulse, parting, loss } = blow(moved, restitution_at(model, pair, -gap.rate), -gap.rate);
     state.account.impact_losses.add(loss);
     let from_outside = impulse_from_outside(state, pair, impulse * gap.normal);
     state.account.impulses.add(from_outside);

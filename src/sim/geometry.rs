@@ -7,7 +7,7 @@ use super::link::Link;
 use super::model::Model;
 use super::pair::Pair;
 use super::predict::{self, Ball, Gap, Target};
-use super::restitution::of_pair;
+use super::restitution::{of_pair, sticking};
 use super::shape::{Surface, direction};
 use super::state::State;
 use super::tolerance::TOUCHES;
@@ -39,6 +39,11 @@ pub(super) fn gap_of(model: &Model, state: &State, pair: Pair, time: f64) -> Gap
 /// Product of the two Bounce values.
 pub(super) fn restitution_of(model: &Model, pair: Pair) -> f64 {
     of_pair(model.body(pair.a).bounce, model.body(pair.b).bounce)
+}
+
+/// The same at a closing speed, m/s.
+pub(super) fn restitution_at(model: &Model, pair: Pair, closing: f64) -> f64 {
+    sticking(restitution_of(model, pair), closing, model.params.stick_speed)
 }
 
 /// Radius of the smaller dynamic body of a pair, m: the length that its contacts are measured by.

@@ -17,7 +17,7 @@ use glam::DVec3;
 
 use super::body::BodyId;
 use super::constraint::enter_none;
-use super::geometry::{BodiesAt, contact_distance, gap_of, restitution_of, surface_of};
+use super::geometry::{BodiesAt, contact_distance, gap_of, restitution_at, surface_of};
 use super::island::Island;
 use super::link::Link;
 use super::model::Model;
@@ -315,14 +315,15 @@ fn member(model: &Model, state: &State, bodies: &Island, pair: Pair, time: f64) 
     };
     let at = BodiesAt { ids: &bodies.ids, x: &bodies.x, v: &bodies.v };
     let link = Link { limit: 0.0, ..at.link(model, pair, surface) };
+    let before = link.entering(&bodies.v);
     Member {
         pair,
         surface,
         gap: gap_of(model, state, pair, time),
-        restitution: restitution_of(model, pair),
+        restitution: restitution_at(model, pair, before),
         is_lasting: lasting.is_some(),
         link,
-        before: link.entering(&bodies.v),
+        before,
         impulse: 0.0,
     }
 }

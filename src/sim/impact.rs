@@ -5,10 +5,13 @@ use glam::DVec3;
 
 use super::capture::free_if_struck;
 use super::contact::Contact;
+use super::dense::{
+    LARGE_ISLAND, Role, component, enter, least_crowd, note_lossy as note_lossy_impact, note_work,
+};
 use super::event::{Event, EventKind};
 use super::exchange::{exchange, velocity_change};
 use super::fault::Fault;
-use super::geometry::{gap_of, restitution_of, smaller_radius};
+use super::geometry::{gap_of, restitution_at, smaller_radius};
 use super::group::{Group, Member, hit_just_now};
 use super::island::part;
 use super::ledger::{contact_event, in_id_order, rank, record, record_contact};
@@ -36,6 +39,12 @@ pub(super) fn resolve(
     for struck in std::iter::once(&pair).chain(also.iter()) {
         free_struck(model, state, time, *struck);
     }
+    let least = pair.dynamic().filter_map(|body| least_crowd(model, state, body, time)).min();
+    if let Some(least) = least
+        && enter_crowd(model, state, pair, least, time)?
+    {
+        return Ok(());
+    }
     let is_lone = pair.dynamic().all(|body| {
         state.contacts[body as usize].is_empty()
             && state.touching[body as usize].is_empty()
@@ -50,9 +59,35 @@ pub(super) fn resolve(
     if group.members.len() == 1 && is_plain {
         return bounce(model, state, time, pair, gap);
     }
+    if is_for_steps(state, &group) {
+        return enter(model, state, &group.bodies.ids, time);
+    }
+    if group.members.iter().any(|member| member.restitution < 1.0) {
+        note_work(model, state, &group.bodies.ids, time);
+    }
     let kind = if collapse(model, state, &mut group) { EventKind::Collapse } else { EventKind::Impact };
     list(model, state, time, &group, kind);
     finish(model, state, time, group)
+}
+
+/// Lets the bodies of an impact be stepped with all that they touch, if so many can move; whether they can.
+fn enter_crowd(model: &Model, state: &mut State, pair: Pair, least: usize, time: f64) -> Result<bool, Fault> {
+    let Some(dense) = &state.dense else { return Ok(false) };
+    let bodies = component(model, state, dense, &pair.dynamic().collect::<Vec<u32>>(), time);
+    let moving = bodies.iter().filter(|body| !state.captured.contains(body)).count();
+    if moving < least {
+        return Ok(false);
+    }
+    enter(model, state, &bodies, time)?;
+    Ok(true)
+}
+
+/// Whether a group is one for steps: too large and lossy, or with a body that is stepped or lies in a stepped heap.
+fn is_for_steps(state: &State, group: &Group) -> bool {
+    let is_large = group.bodies.ids.len() >= LARGE_ISLAND;
+    state.dense.is_some()
+        && (is_large && group.members.iter().any(|member| member.restitution < 1.0)
+            || group.bodies.ids.iter().any(|body| state.role(*body) != Role::Outside))
 }
 
 /// Resolves a group, plastically where it is collapsing; whether that is news.
@@ -90,7 +125,7 @@ fn free_struck(model: &Model, state: &mut State, time: f64, pair: Pair) {
     }
     let gap = gap_of(model, state, pair, time);
     let reduced = reduced_mass(model.mass(pair.first()), model.mass(other));
-    let Blow { impulse, .. } = blow(reduced, restitution_of(model, pair), -gap.rate);
+    let Blow { impulse, .. } = blow(reduced, restitution_at(model, pair, -gap.rate), -gap.rate);
     for (body, impulse) in [(pair.first(), -impulse), (other, impulse)] {
         free_if_struck(model, state, body, impulse / model.mass(body) * gap.normal);
     }
@@ -98,7 +133,7 @@ fn free_struck(model: &Model, state: &mut State, time: f64, pair: Pair) {
 
 /// Whether the last bounces may have come: the full rule must decide.
 fn is_near_rest(model: &Model, pair: Pair, gap: &Gap) -> bool {
-    let speed = restitution_of(model, pair) * -gap.rate;
+    let speed = restitution_at(model, pair, -gap.rate) * -gap.rate;
     let radius = smaller_radius(model, pair);
     let height = (model.params.rest_height * radius).max(touch_tolerance(gap.point, radius));
     speed * speed <= 4.0 * gap.drive.abs() * height
@@ -107,6 +142,9 @@ fn is_near_rest(model: &Model, pair: Pair, gap: &Gap) -> bool {
 /// Newton's law for two bodies that touch nothing else, which then go on.
 fn bounce(model: &Model, state: &mut State, time: f64, pair: Pair, gap: &Gap) -> Result<(), Fault> {
     note_lossy(model, state, [(pair, -gap.rate)]);
+    if restitution_at(model, pair, -gap.rate) < 1.0 {
+        pair.dynamic().for_each(|body| note_lossy_impact(model, state, body, time));
+    }
     let impulse = exchange(model, state, time, pair, gap);
     let start = |body: u32, impulse: f64| Start {
         body,
@@ -129,6 +167,10 @@ fn list(model: &Model, state: &mut State, time: f64, group: &Group, kind: EventK
         return;
     }
     state.group += 1;
+    let lossy = group.members.iter().filter(|member| group.is_felt(member) && member.restitution < 1.0);
+    lossy
+        .flat_map(|member| member.pair.dynamic())
+        .for_each(|body| note_lossy_impact(model, state, body, time));
     let row = |member: &Member| {
         let event = Event {
             impulse: member.impulse,
@@ -243,7 +285,7 @@ fn make(state: &mut State, member: &Member, settling: &Settling) {
 /// step, next to nothing of what its bodies met others with. A soft touch after a hard blow is none. Elastic pairs
 /// make no collapse, and a lone body comes to rest on what is fixed.
 fn is_collapsing(model: &Model, state: &State, pair: Pair, closing: f64) -> bool {
-    let restitution = restitution_of(model, pair);
+    let restitution = restitution_at(model, pair, closing);
     let falling = |body: u32| Some(state.cascades[body as usize]).filter(|cascade| cascade.since >= FALLING);
     let references = pair.dynamic().filter_map(falling).map(|cascade| cascade.reference);
     are_both_free(state, pair)
@@ -260,7 +302,9 @@ fn are_both_free(state: &State, pair: Pair) -> bool {
 /// Remembers the lossy impacts of dynamic bodies.
 fn note_lossy(model: &Model, state: &mut State, impacts: impl IntoIterator<Item = (Pair, f64)>) {
     for (pair, closing) in impacts {
-        let Some(other) = pair.second().filter(|_| restitution_of(model, pair) < 1.0) else { continue };
+        let Some(other) = pair.second().filter(|_| restitution_at(model, pair, closing) < 1.0) else {
+            continue;
+        };
         let is_collapsing = is_collapsing(model, state, pair, closing);
         for body in [pair.first(), other] {
             let cascade = &mut state.cascades[body as usize];

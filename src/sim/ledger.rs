@@ -31,7 +31,7 @@ pub(super) fn record_contact(model: &Model, state: &mut State, time: f64, kind: 
 /// An event of two bodies that exchanges no impulse, not yet numbered or in the order of their ids.
 pub(super) fn contact_event(time: f64, kind: EventKind, pair: Pair, gap: &Gap) -> Event {
     let (a, b) = pair.refs();
-    Event { b: Some(b), normal: gap.normal, ..Event::of_one(time, kind, a, gap.point) }
+    Event { b: Some(b), bodies: 2, normal: gap.normal, ..Event::of_one(time, kind, a, gap.point) }
 }
 
 /// The same event with the body of the smaller UserID first and the normal from it to the other.

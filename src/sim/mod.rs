@@ -23,6 +23,7 @@ mod change;
 mod close_pass;
 mod constraint;
 mod contact_ends;
+mod dense;
 mod drive;
 mod engine;
 mod exchange;

@@ -19,6 +19,8 @@ pub(super) struct Model {
     pub forces: Vec<ForceEntry>,
     pub grid: Grid,
     pub static_tiles: StaticTiles,
+    /// Step of stepped groups, s; 0 where the scene can have none.
+    pub dense_step: f64,
     pub plan: Plan,
     pub start_warnings: Vec<Diagnostic>,
 }

@@ -4,13 +4,15 @@ use glam::DVec3;
 
 use super::body::BodyId;
 use super::contact_ends::predict_contact_events;
+use super::dense::Role;
 use super::force::Law;
 use super::geometry::{ball, contact_distance, gap_of, larger_radius, target};
 use super::model::Model;
 use super::pair::Pair;
-use super::predict::{self, first_beyond};
-use super::queue::Kind;
+use super::predict::{self, Ball, Target, first_beyond};
+use super::queue::{Kind, Predicted};
 use super::roots::first_root;
+use super::segment::{Path, Segment};
 use super::state::{Scratch, State};
 use super::tiles::{TileRange, for_each_brick};
 use super::tolerance::{BOX_MARGIN, BOX_ROUNDING, LATER_ROUNDING};
@@ -34,6 +36,28 @@ pub(super) fn enter(model: &Model, state: &mut State, body: u32, time: f64) {
     let range = range_at(model, model.radius(body), position);
     state.registered[body as usize] = range;
     state.dynamic_tiles.insert(&model.grid, range, body);
+}
+
+/// Registers a body in all tiles that it may come to while it stays within `reach` of a point, m.
+pub(super) fn register_within(model: &Model, state: &mut State, body: u32, center: DVec3, reach: f64) {
+    let old = state.registered[body as usize];
+    let new = range_at(model, reach, center);
+    if new != old {
+        state.dynamic_tiles.change(&model.grid, old, new, body);
+        state.registered[body as usize] = new;
+        state.counters.tile_crossings += 1;
+    }
+}
+
+/// The bodies in the tiles within `reach` of a point, m, each once, in order, and the static ones that are in no tile.
+pub(super) fn within(model: &Model, state: &State, center: DVec3, reach: f64, found: &mut Vec<BodyId>) {
+    found.clear();
+    let range = range_at(model, reach, center);
+    state.dynamic_tiles.visit(&model.grid, range, None, |other| found.push(BodyId::of_dynamic(other)));
+    model.static_tiles.visit(&model.grid, range, None, |other| found.push(BodyId::of_static(other)));
+    found.extend(model.static_tiles.large().iter().map(|other| BodyId::of_static(*other)));
+    found.sort_unstable();
+    found.dedup();
 }
 
 /// Makes all predictions about a body that has just begun a segment at `time`.
@@ -197,6 +221,9 @@ pub(super) fn predict_pair(model: &Model, state: &mut State, pair: Pair, from: f
     if !state.contacts[body as usize].is_empty() && state.contact(pair).is_some() {
         return;
     }
+    if is_stepped(state, pair) {
+        return predict_reach(model, state, pair, time);
+    }
     state.counters.pair_tests += 1;
     if let Some(other) = pair.second()
         && lies_against(model, state, pair, time)
@@ -209,9 +236,55 @@ pub(super) fn predict_pair(model: &Model, state: &mut State, pair: Pair, from: f
     }
 }
 
+/// Whether one of a pair is stepped.
+fn is_stepped(state: &State, pair: Pair) -> bool {
+    let Some(dense) = state.dense.as_ref().filter(|dense| !dense.members.is_empty()) else { return false };
+    pair.dynamic().any(|body| dense.is_member(body))
+}
+
+/// Predicts when a body comes near where a stepped one may be, two steps before: among each other, stepped bodies
+/// need no predictions.
+fn predict_reach(model: &Model, state: &mut State, pair: Pair, time: f64) {
+    let Some((body, member)) = outsider(state, pair) else { return };
+    let Some(met) = reach_of(model, state, body, member, time) else { return };
+    let Some(epoch) = state.dense.as_ref().map(|dense| dense.epoch) else { return };
+    let soon = (met - 2.0 * model.dense_step).max(time);
+    let (kind, b) = (Kind::Reach, BodyId::of_dynamic(member));
+    let stamp_a = state.stamps[body as usize];
+    state.queue.push(Predicted { time: soon, kind, a: body, b, stamp_a, stamp_b: epoch });
+}
+
+/// The one of a pair that is not stepped, and the other.
+fn outsider(state: &State, pair: Pair) -> Option<(u32, u32)> {
+    let (a, b) = (pair.first(), pair.second()?);
+    match (state.role(a), state.role(b)) {
+        (Role::Outside, Role::Member(_)) => Some((a, b)),
+        (Role::Member(_), Role::Outside) => Some((b, a)),
+        _ => None,
+    }
+}
+
+/// When a body on its present segment touches the ball in which a stepped one stays; `time` if it is in it already.
+pub(super) fn reach_of(model: &Model, state: &State, body: u32, member: u32, time: f64) -> Option<f64> {
+    let dense = state.dense.as_ref()?;
+    let Role::Member(slot) = dense.role(member) else { return None };
+    let member = &dense.members[slot as usize];
+    let segment = Segment::resting(member.listed_at);
+    let radius = model.radius(member.body) + member.margin;
+    let place = Target::Sphere(Ball { path: Path { segment: &segment, series: None }, radius });
+    let ball = ball(model, state, body);
+    if predict::gap(ball, place, time).distance <= 0.0 {
+        return Some(time);
+    }
+    predict::first_contact(ball, place, f64::NEG_INFINITY).map(|met| met.max(time))
+}
+
 /// Predicts again what touches and neither meets nor lasts: from when the motion that is left, if any, has brought
 /// the surfaces nearer by the rounding of a place. The same time would only give the same answer.
 pub(super) fn predict_later(model: &Model, state: &mut State, pair: Pair, time: f64) {
+    if is_stepped(state, pair) {
+        return;
+    }
     let gap = gap_of(model, state, pair, time);
     let slack = predict::touch_tolerance(gap.point, larger_radius(model, pair));
     let integrated = pair.dynamic().map(|body| state.path(body)).filter(|path| path.series.is_some());

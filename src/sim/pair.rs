@@ -43,6 +43,11 @@ impl Pair {
         [Some((self.first(), self.b)), back].into_iter().flatten()
     }
 
+    /// The other one of the pair of a dynamic body.
+    pub fn other(&self, body: u32) -> BodyId {
+        if self.first() == body { self.b } else { self.a }
+    }
+
     pub fn involves(&self, body: u32) -> bool {
         let body = BodyId::of_dynamic(body);
         self.a == body || self.b == body

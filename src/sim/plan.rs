@@ -13,7 +13,7 @@ pub(super) fn plan_of(model: &Model) -> Plan {
     let statics: Vec<&Body> = present().filter(|body| body.is_static()).collect();
     let dynamic_bodies = present().count() - statics.len();
     let ballistic = model.is_ballistic();
-    let lossy = present().any(|body| body.bounce < 1.0);
+    let lossy = present().any(|body| body.bounce < 1.0) || model.params.stick_speed > 0.0;
 
     let mut left_out = vec!["rotation: frictionless spheres keep their spin, whatever it is"];
     if ballistic {
@@ -27,12 +27,18 @@ pub(super) fn plan_of(model: &Model) -> Plan {
     } else if model.method != Method::Exact {
         left_out.push("rest after bounces: this method lets bodies bounce for ever");
     }
+    let lasting_contact = lossy && model.method == Method::Exact;
+    let stepped_groups = lasting_contact && dynamic_bodies > 1;
+    if lasting_contact && !stepped_groups {
+        left_out.push("stepped groups: no two moving bodies");
+    }
     Plan {
         dynamic_bodies,
         static_bodies: statics.len(),
         motion: if ballistic { "ballistic" } else { "field" },
         pairs: pairs_of(dynamic_bodies, &statics),
-        lasting_contact: lossy && model.method == Method::Exact,
+        lasting_contact,
+        stepped_groups,
         left_out,
     }
 }

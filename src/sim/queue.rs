@@ -20,6 +20,8 @@ pub(super) enum Kind {
     Settled,
     /// Two bodies in lasting contact part.
     ContactEnd,
+    /// A body comes near a stepped one.
+    Reach,
     /// Two bodies touch.
     Impact,
 }

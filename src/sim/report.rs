@@ -10,15 +10,18 @@ pub enum ContactState {
     Rest,
     /// In lasting contact and moving along it.
     Slide,
+    /// Stepped with others that it touches too often for events.
+    Stepped,
 }
 
 impl ContactState {
-    /// `flight`, `rest` or `slide`, as files and the window write it.
+    /// `flight`, `rest`, `slide` or `stepped`, as files and the window write it.
     pub fn name(self) -> &'static str {
         match self {
             Self::Flight => "flight",
             Self::Rest => "rest",
             Self::Slide => "slide",
+            Self::Stepped => "stepped",
         }
     }
 }
@@ -62,7 +65,7 @@ pub struct Momentum {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counters {
     /// Ledger rows by kind, in the order of [`super::EventKind::ALL`].
-    pub events: [u64; 8],
+    pub events: [u64; 10],
     /// Pairs whose time of impact was computed.
     pub pair_tests: u64,
     /// Times a body moved to other tiles.
@@ -75,6 +78,12 @@ pub struct Counters {
     pub given_up: u64,
     /// Predicted events dropped because a body had changed since.
     pub stale_events: u64,
+    /// Steps of stepped groups, one for each component; and how often one was halved.
+    pub steps: u64,
+    pub halvings: u64,
+    /// Contacts in those steps, and sweeps over them.
+    pub contacts: u64,
+    pub sweeps: u64,
 }
 
 impl Counters {
@@ -94,6 +103,8 @@ pub struct Plan {
     pub pairs: Vec<&'static str>,
     /// Whether a body can come to rest.
     pub lasting_contact: bool,
+    /// Whether bodies that touch too often for events may be stepped.
+    pub stepped_groups: bool,
     /// What was not stored and not computed because nothing in the scene needs it.
     pub left_out: Vec<&'static str>,
 }

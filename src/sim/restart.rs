@@ -4,11 +4,13 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
+use super::dense::{LARGE_ISLAND, Role, enter, least_crowd, note_work};
 use super::fault::{Fault, fault};
 use super::island::{Island, begin_island, connected, drop_unpressed, islands};
 use super::model::Model;
-use super::motion::{begin_segment, begin_stay};
+use super::motion::{begin_segment, begin_stay, place};
 use super::neighbours::predict_all;
+use super::segment::Segment;
 use super::state::State;
 
 /// Where a body goes on from.
@@ -59,7 +61,12 @@ pub(super) fn restart(model: &Model, state: &mut State, time: f64, starts: &[Sta
     let mut bodies = begin_islands(model, state, time, &held)?;
     bodies.extend(alone.iter().map(|start| start.body));
     bodies.sort_unstable();
-    bodies.into_iter().for_each(|body| predict_all(model, state, body, time));
+    for body in bodies {
+        // Some may be stepped now.
+        if state.role(body) == Role::Outside {
+            predict_all(model, state, body, time);
+        }
+    }
     Ok(())
 }
 
@@ -80,6 +87,7 @@ fn begin_islands(model: &Model, state: &mut State, time: f64, starts: &[Start]) 
     for ids in islands(state, &bodies) {
         drop_unpressed(model, state, &island(state, ids), time);
     }
+    let mut to_step = Vec::new();
     // What is left may have fallen apart.
     for ids in islands(state, &bodies) {
         let mut island = island(state, ids);
@@ -89,11 +97,43 @@ fn begin_islands(model: &Model, state: &mut State, time: f64, starts: &[Start]) 
                 let start = Start { body: island.ids[0], x: island.x[0], v: island.v[0] };
                 begin_alone(model, state, time, &start)?;
             }
-            Regime::Held => begin_island(model, state, &mut island, time)
-                .map_err(|(body, error)| fault(model, body, time, error))?,
+            Regime::Held if is_for_steps(model, state, &island.ids, time) => {
+                halt(model, state, &island, time);
+                to_step.push(island.ids);
+            }
+            Regime::Held => {
+                begin_island(model, state, &mut island, time)
+                    .map_err(|(body, error)| fault(model, body, time, error))?;
+                if state.segments[island.ids[0] as usize].step > 0.0 {
+                    note_work(model, state, &island.ids, time);
+                }
+            }
+        }
+    }
+    for ids in to_step {
+        // One may have been taken along with another.
+        if ids.iter().any(|body| state.role(*body) == Role::Outside) {
+            enter(model, state, &ids, time)?;
         }
     }
     Ok(bodies)
+}
+
+/// Whether an island is too large for events, or costs too much.
+fn is_for_steps(model: &Model, state: &State, ids: &[u32], time: f64) -> bool {
+    state.dense.is_some()
+        && (ids.len() >= LARGE_ISLAND
+            || ids
+                .iter()
+                .filter_map(|body| least_crowd(model, state, *body, time))
+                .any(|least| ids.len() >= least))
+}
+
+/// Lets bodies begin anew where they are, from where a step of theirs will go on.
+fn halt(model: &Model, state: &mut State, island: &Island, time: f64) {
+    for ((body, x), v) in island.ids.iter().zip(&island.x).zip(&island.v) {
+        place(model, state, *body, Segment::ballistic(time, *x, *v, DVec3::ZERO), None);
+    }
 }
 
 /// Lets a body go on that touches no other.

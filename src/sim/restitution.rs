@@ -16,6 +16,14 @@ pub(super) fn of_pair(bounce_a: f64, bounce_b: f64) -> f64 {
     bounce_a * bounce_b
 }
 
+/// e(v) = e·max(0, 1 − v_s/v): what is wet does not rebound below a speed v_s (Davis, Rager & Good 2002).
+pub(super) fn sticking(restitution: f64, closing: f64, stick_speed: f64) -> f64 {
+    if stick_speed == 0.0 {
+        return restitution;
+    }
+    if closing > stick_speed { restitution * (1.0 - stick_speed / closing) } else { 0.0 }
+}
+
 /// m_a·m_b/(m_a + m_b), kg: the mass that an impulse moves. One of the two may be infinite.
 pub(super) fn reduced_mass(mass_a: f64, mass_b: f64) -> f64 {
     if mass_b.is_infinite() {

@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::account::Account;
 use super::body::{BodyId, Origin};
 use super::contact::Contact;
+use super::dense::{Dense, Role};
 use super::event::Event;
 use super::model::Model;
 use super::open_step::OpenStep;
@@ -42,6 +43,8 @@ pub(super) struct State {
     pub touching: Vec<Vec<u32>>,
     /// The lossy impacts of each body.
     pub cascades: Vec<Cascade>,
+    /// Bodies that are stepped; none where the scene can have no such groups.
+    pub dense: Option<Box<Dense>>,
     pub dynamic_tiles: DynamicTiles,
     pub queue: Queue,
     /// The Δt that a method which steps by it is in.
@@ -82,6 +85,8 @@ pub(super) struct Scratch {
     pub seen_static: Vec<u32>,
     pub found_dynamic: Vec<u32>,
     pub found_static: Vec<u32>,
+    /// Places of stepped bodies in the component at hand.
+    pub slots: Vec<u32>,
 }
 
 impl State {
@@ -100,6 +105,7 @@ impl State {
             contacts: Vec::with_capacity(origins.len()),
             touching: Vec::with_capacity(origins.len()),
             cascades: Vec::with_capacity(origins.len()),
+            dense: None,
             dynamic_tiles: DynamicTiles::default(),
             queue: Queue::default(),
             step: None,
@@ -125,6 +131,9 @@ impl State {
         self.contacts.push(Vec::new());
         self.touching.push(Vec::new());
         self.cascades.push(Cascade::default());
+        if let Some(dense) = &mut self.dense {
+            dense.push_body();
+        }
         index
     }
 
@@ -156,6 +165,10 @@ impl State {
 
     /// Whether a prediction was made for the segments that its bodies still follow.
     pub fn holds(&self, predicted: &Predicted) -> bool {
+        if predicted.kind == Kind::Reach {
+            return self.stamps[predicted.a as usize] == predicted.stamp_a
+                && self.dense.as_ref().is_some_and(|dense| dense.epoch == predicted.stamp_b);
+        }
         self.stamps[predicted.a as usize] == predicted.stamp_a
             && predicted.b.dynamic().is_none_or(|b| self.stamps[b as usize] == predicted.stamp_b)
     }
@@ -186,12 +199,22 @@ impl State {
     /// How a body moves at a time, for people: a body in contact that neither moves nor is driven rests, and so does
     /// a captured one.
     pub fn contact_state(&self, body: u32, time: f64) -> ContactState {
+        match self.role(body) {
+            Role::Outside => {}
+            Role::Member(_) => return ContactState::Stepped,
+            Role::Frozen(_) => return ContactState::Rest,
+        }
         if self.contacts[body as usize].is_empty() && !self.captured.contains(&body) {
             return ContactState::Flight;
         }
         let path = self.path(body);
         let still = path.velocity(time) == DVec3::ZERO && path.acceleration(time) == DVec3::ZERO;
         if still { ContactState::Rest } else { ContactState::Slide }
+    }
+
+    /// What a dynamic body is to stepped groups.
+    pub fn role(&self, body: u32) -> Role {
+        self.dense.as_ref().map_or(Role::Outside, |dense| dense.role(body))
     }
 
     /// The lasting contact of a pair.

@@ -68,6 +68,7 @@ pub struct Palette {
     pub highlight: Color,
     pub rest: Color,
     pub slide: Color,
+    pub stepped: Color,
     pub axes: [Color; 3],
 }
 
@@ -95,6 +96,7 @@ const DARK: Palette = Palette {
     highlight: Color::rgb(255, 235, 90),
     rest: Color::rgb(150, 200, 255),
     slide: Color::rgb(255, 205, 120),
+    stepped: Color::rgb(190, 150, 255),
     axes: [Color::rgb(240, 92, 92), Color::rgb(112, 208, 96), Color::rgb(92, 150, 255)],
 };
 
@@ -122,6 +124,7 @@ const LIGHT: Palette = Palette {
     highlight: Color::rgb(190, 120, 0),
     rest: Color::rgb(24, 96, 190),
     slide: Color::rgb(160, 92, 0),
+    stepped: Color::rgb(110, 60, 190),
     axes: [Color::rgb(204, 38, 38), Color::rgb(38, 138, 28), Color::rgb(30, 86, 210)],
 };
 

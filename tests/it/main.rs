@@ -77,6 +77,8 @@ mod scene_properties;
 mod scene_read;
 // Many bodies: what an edit costs, and whether it is right.
 mod scene_scale;
+// Stepped groups: heaps come to rest, wake, and depend on nothing but the scene.
+mod sim_dense;
 // Capture at the core of an attractor.
 mod sim_capture;
 // Chains of impacts with known outcomes: head-on pairs, Newton's cradle, counting π.

@@ -113,6 +113,7 @@ pub fn frame() -> Frame {
         vn_after: 2.0,
         group: 5,
         row_in_group: [1; 2],
+        bodies: 2,
     };
     let row = EventRow {
         event,

@@ -173,7 +173,7 @@ fn long_help() -> String {
 const ROWS: &str = "\
 States, one row at t = 0, after every N-th Δt and at the end:
   {\"t\":0.5,\"bodies\":[{\"id\":\"7\",\"x\":[..],\"v\":[..],\"state\":\"flight\"}]}
-  t in s, x in m, v in m/s; state is flight, rest or slide
+  t in s, x in m, v in m/s; state is flight, rest, slide or stepped
 
 Events, one row per contact:
   {\"seq\":1,\"t\":0.1,\"kind\":\"impact\",\"a\":\"7\",\"b\":\"9\",\"point\":[..],\"normal\":[..],
@@ -183,5 +183,7 @@ Events, one row per contact:
   impulse is in N·s; vn is the speed of b against a along normal, in m/s
   group numbers the impacts and collapses: the contacts of bodies that touch are resolved
   together and share it, one row each; it is 0 for other kinds; dt_index is the Δt, from 1
+  dense and group_rest are about the bodies of one group, of which a has the smallest UserID;
+  they say how many these are, \"bodies\":30, and share the group's number
 
 Ids are UserIDs; the k-th body of a repeated UserID is called UserID#k.";

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use serde::Serialize;
 
-use crate::sim::{Event, Simulation};
+use crate::sim::{Event, EventKind, Simulation};
 
 /// All dynamic bodies at one time.
 #[derive(Serialize)]
@@ -49,6 +49,8 @@ pub struct EventRow<'a> {
     vn_before: f64,
     vn_after: f64,
     group: u64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    bodies: Option<u32>,
     dt_index: u64,
 }
 
@@ -66,9 +68,15 @@ impl<'a> EventRow<'a> {
             vn_before: event.vn_before,
             vn_after: event.vn_after,
             group: event.group,
+            bodies: is_about_many(event.kind).then_some(event.bodies),
             dt_index,
         }
     }
+}
+
+/// Whether a kind of event is about a whole group of bodies.
+fn is_about_many(kind: EventKind) -> bool {
+    matches!(kind, EventKind::Dense | EventKind::GroupRest)
 }
 
 /// To a reader −0 is 0.

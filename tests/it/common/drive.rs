@@ -1,6 +1,6 @@
 //! Drives a simulation through a span of time in different ways, which must all give the same bits.
 
-use polyscene::scene::Scene;
+use polyscene::scene::{Scene, Shape};
 use polyscene::sim::{BodyRef, BodyState, Event, EventKind, Simulation};
 use polyscene::study::Random;
 
@@ -99,6 +99,38 @@ pub fn state_of(sim: &Simulation, id: i64) -> BodyState {
     let label = id.to_string();
     let body = sim.dynamic_bodies().find(|&body| sim.label(body) == label);
     sim.state(body.unwrap_or_else(|| panic!("no body {id}"))).expect("a listed body has a state")
+}
+
+/// What is promised of overlaps and of energy: exactness from event to event, and bounds once bodies are stepped.
+#[derive(Clone, Copy, Debug)]
+pub struct Promise {
+    /// m.
+    pub overlap: f64,
+    /// Climb of the total energy, J.
+    pub climb: f64,
+}
+
+impl Promise {
+    /// Of stepped groups: a thousandth of the smallest radius, and a hundredth of the work of moving the heaviest body
+    /// by its radius.
+    pub fn of_steps(sim: &Simulation, scene: &Scene) -> Self {
+        let radii = scene.bodies.iter().filter_map(|body| match (&body.shape, body.is_dynamic()) {
+            (Shape::Sphere { radius }, true) => Some((body.key, *radius)),
+            _ => None,
+        });
+        let (mut smallest, mut work) = (f64::INFINITY, 0.0_f64);
+        for (key, radius) in radii {
+            smallest = smallest.min(radius);
+            let force = sim.find(key).map_or(0.0, |body| sim.total_force(body).length());
+            work = work.max(force * radius);
+        }
+        Self { overlap: 1e-3 * smallest, climb: 1e-2 * work }
+    }
+}
+
+/// Whether any bodies have been stepped.
+pub fn was_stepped(sim: &Simulation) -> bool {
+    sim.counters().steps > 0
 }
 
 pub fn impacts(events: &[Event]) -> Vec<&Event> {

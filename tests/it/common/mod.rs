@@ -4,5 +4,6 @@
 pub mod build;
 pub mod contact_scenes;
 pub mod drive;
+pub mod heaps;
 pub mod load;
 pub mod reference;

@@ -1,0 +1,53 @@
+//! When bodies are to be stepped: where they are struck more often than events can follow, or held together in a way
+//! that costs more than steps would.
+
+use super::data::{Activity, Decaying};
+use super::tolerance::{
+    CROWDED, HALF_LIFE, HALF_LIFE_OF_WORK, MOST_AT_ONE_INSTANT, SMALLEST_CROWD, TOO_MUCH_WORK, WORK_OF_CUBE,
+};
+use crate::sim::model::Model;
+use crate::sim::state::State;
+
+/// Notes a lossy impact of a body at a time: one row of the ledger.
+pub(in crate::sim) fn note_lossy(model: &Model, state: &mut State, body: u32, time: f64) {
+    if let Some(dense) = &mut state.dense {
+        let activity = &mut dense.activity[body as usize];
+        activity.impacts.add(1.0, time, HALF_LIFE * model.dense_step);
+        if activity.instant != time {
+            (activity.instant, activity.at_once) = (time, 0);
+        }
+        activity.at_once += 1;
+    }
+}
+
+/// Notes that lossy bodies were resolved or integrated together.
+pub(in crate::sim) fn note_work(model: &Model, state: &mut State, bodies: &[u32], time: f64) {
+    let Some(dense) = &mut state.dense else { return };
+    let size = bodies.len() as f64;
+    for body in bodies {
+        let work = &mut dense.activity[*body as usize].work;
+        work.add(WORK_OF_CUBE * size * size * size, time, HALF_LIFE_OF_WORK * model.dense_step);
+    }
+}
+
+/// Of how many moving bodies a component must be to be stepped, as this one is struck so often or its motion costs so
+/// much; `None` if it is not.
+pub(in crate::sim) fn least_crowd(model: &Model, state: &State, body: u32, time: f64) -> Option<usize> {
+    let Activity { impacts, work, instant, at_once } = &state.dense.as_ref()?.activity[body as usize];
+    let is_stuck = *instant == time && *at_once >= MOST_AT_ONE_INSTANT;
+    if is_stuck || work.at(time, HALF_LIFE_OF_WORK * model.dense_step) >= TOO_MUCH_WORK {
+        return Some(2);
+    }
+    (impacts.at(time, HALF_LIFE * model.dense_step) >= CROWDED).then_some(SMALLEST_CROWD)
+}
+
+impl Decaying {
+    /// The sum as it is at a time.
+    fn at(&self, time: f64, half_life: f64) -> f64 {
+        if self.sum == 0.0 { 0.0 } else { self.sum * libm::exp2((self.last - time) / half_life) }
+    }
+
+    fn add(&mut self, weight: f64, time: f64, half_life: f64) {
+        *self = Self { sum: weight + self.at(time, half_life), last: time };
+    }
+}

@@ -1,0 +1,84 @@
+//! The grid of model time on which groups are stepped.
+
+use glam::DVec3;
+
+use super::tolerance::{FALL_IN_A_STEP, MOST_HALVINGS, SHORTEST_STEP, WAY_IN_A_STEP};
+use crate::sim::force::Law;
+use crate::sim::model::Model;
+use crate::sim::place::Place;
+
+/// Length of a step, s: a power of two, so that grid times are exact, of at most √(2e-4·r/g) for the smallest radius
+/// and the largest acceleration of the bodies where they are; at point attractors of bodies that touch at their
+/// centre. Without forces bodies pass a fiftieth of the radius in it.
+pub(in crate::sim) fn step_length(model: &Model, at: impl Fn(u32) -> (DVec3, DVec3)) -> f64 {
+    if model.params.dense_step > 0.0 {
+        return model.params.dense_step;
+    }
+    let smallest = model.present().map(|body| model.radius(body)).fold(f64::INFINITY, f64::min);
+    let mut strongest: f64 = 0.0;
+    let mut fastest: f64 = 0.0;
+    for body in model.present() {
+        let (x, v) = at(body);
+        fastest = fastest.max(v.length());
+        strongest = strongest.max(acceleration(model, body, x, smallest));
+    }
+    if strongest > 0.0 {
+        return power_of_two_below((FALL_IN_A_STEP * smallest / strongest).sqrt());
+    }
+    // Once there are steps, they are kept when the forces are taken away: what is left of motion tells nothing.
+    if model.dense_step > 0.0 {
+        return model.dense_step;
+    }
+    power_of_two_below(WAY_IN_A_STEP * smallest / fastest)
+}
+
+/// What drives a body, without drag, m/s².
+fn acceleration(model: &Model, body: u32, x: DVec3, smallest: f64) -> f64 {
+    let subject = model.subject(body, 0.0, Place::exact(x), DVec3::ZERO);
+    let of_law = |law: &Law| match *law {
+        Law::Point { intensity, .. } => DVec3::X * (intensity.abs() / (4.0 * smallest * smallest)),
+        _ => law.force(&subject) / subject.mass,
+    };
+    model.forces.iter().map(|force| of_law(&force.law)).sum::<DVec3>().length()
+}
+
+/// The largest power of two not above a time; 1 where that is out of range.
+fn power_of_two_below(time: f64) -> f64 {
+    if !time.is_normal() {
+        return 1.0;
+    }
+    f64::from_bits(time.to_bits() & (0x7ff << 52))
+}
+
+/// End of a step that begins at a time: the next time of the grid of steps halved so often, or the one after if that
+/// is too near.
+pub(super) fn step_end(step: f64, halvings: u8, time: f64) -> f64 {
+    let length = step / f64::from(1_u32 << halvings.min(MOST_HALVINGS));
+    let count = ((time + SHORTEST_STEP * length) / length).floor() + 1.0;
+    let end = count * length;
+    // Where a step is below the resolution of time, time must go on all the same.
+    if end > time { end } else { time + length.max(time.abs() * f64::EPSILON * 2.0) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_end_on_the_grid_and_are_never_too_short() {
+        let step = 1.0 / 1024.0;
+        assert_eq!(step_end(step, 0, 0.0), step);
+        assert_eq!(step_end(step, 0, step), 2.0 * step);
+        assert_eq!(step_end(step, 0, 0.5 * step), step);
+        assert_eq!(step_end(step, 0, 0.95 * step), 2.0 * step);
+        assert_eq!(step_end(step, 1, step), 1.5 * step);
+        assert_eq!(step_end(step, 2, 1.25 * step), 1.5 * step);
+    }
+
+    #[test]
+    fn powers_of_two_scale() {
+        assert_eq!(power_of_two_below(0.0013), 1.0 / 1024.0);
+        assert_eq!(power_of_two_below(0.25), 0.25);
+        assert_eq!(power_of_two_below(f64::INFINITY), 1.0);
+    }
+}

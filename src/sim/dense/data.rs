@@ -1,0 +1,137 @@
+//! What is stored of stepped groups: columns over the dynamic bodies, the members, the list of pairs near each other.
+
+use glam::DVec3;
+
+use crate::sim::pair::Pair;
+
+/// What a dynamic body is to stepped groups.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(in crate::sim) enum Role {
+    /// It goes on from event to event.
+    #[default]
+    Outside,
+    /// It is stepped; its place among the members.
+    Member(u32),
+    /// It lies still, in the resting component of this number.
+    Frozen(u32),
+}
+
+/// What a body has been through in the last steps.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::sim) struct Activity {
+    /// Its lossy impacts.
+    pub impacts: Decaying,
+    /// What it cost to resolve and integrate it with others, in steps of a group.
+    pub work: Decaying,
+    /// Time of the last lossy impact, s, and how many there were at that time.
+    pub instant: f64,
+    pub at_once: u32,
+}
+
+/// A sum of which half is forgotten in some time.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::sim) struct Decaying {
+    pub sum: f64,
+    /// When it had that value, s.
+    pub last: f64,
+}
+
+/// A body that is stepped.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::sim) struct Member {
+    pub body: u32,
+    /// Where it was when the list was made, m, and how far it may go from there.
+    pub listed_at: DVec3,
+    pub margin: f64,
+    /// Margin that it needs in the next list at least, m.
+    pub widened: f64,
+    /// How often its step is halved, and whether it took few sweeps.
+    pub halvings: u8,
+    pub is_easy: bool,
+    /// Whether its segment is one of a group, which is a step of the leapfrog.
+    pub is_stepped: bool,
+    /// Steps without a force.
+    pub idle: u32,
+    /// Where it was when it last moved by more than what counts as still, m, and when, s.
+    pub anchor: DVec3,
+    pub still_since: f64,
+    /// Number of the group that it entered with.
+    pub group: u64,
+}
+
+/// The place of a body that does not move.
+pub(in crate::sim) const FIXED: u32 = u32::MAX;
+
+/// Two bodies near each other, of which one at least is a member.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::sim) struct Listed {
+    pub pair: Pair,
+    /// Places among the members: of one of the two, and of the other, or [`FIXED`].
+    pub slots: [u32; 2],
+    /// Force between them in the last step, N.
+    pub force: f64,
+}
+
+/// All of it. There is none where a scene can have no groups.
+#[derive(Clone, Debug)]
+pub(in crate::sim) struct Dense {
+    pub roles: Vec<Role>,
+    pub activity: Vec<Activity>,
+    /// In the order of their bodies.
+    pub members: Vec<Member>,
+    /// In order.
+    pub pairs: Vec<Listed>,
+    /// Grows with every new list, so that what was predicted for an old one can be told.
+    pub epoch: u32,
+    /// When the list was made, s.
+    pub listed_since: f64,
+    /// Whether members were added or taken since.
+    pub is_list_stale: bool,
+    /// Bodies that join at the next step.
+    pub waiting: Vec<u32>,
+    /// The earliest end of a member's step, s; infinite without members.
+    pub next: f64,
+    /// Number of the last component that came to rest.
+    pub last_frozen: u32,
+    pub frozen: usize,
+}
+
+impl Dense {
+    pub fn new(bodies: usize) -> Self {
+        Self {
+            roles: vec![Role::Outside; bodies],
+            activity: vec![Activity::default(); bodies],
+            members: Vec::new(),
+            pairs: Vec::new(),
+            epoch: 0,
+            listed_since: 0.0,
+            is_list_stale: false,
+            waiting: Vec::new(),
+            next: f64::INFINITY,
+            last_frozen: 0,
+            frozen: 0,
+        }
+    }
+
+    pub fn push_body(&mut self) {
+        self.roles.push(Role::Outside);
+        self.activity.push(Activity::default());
+    }
+
+    pub fn role(&self, body: u32) -> Role {
+        self.roles[body as usize]
+    }
+
+    pub fn is_member(&self, body: u32) -> bool {
+        matches!(self.role(body), Role::Member(_))
+    }
+
+    /// Numbers the members anew after some were added or taken.
+    pub fn renumber(&mut self) {
+        self.members.sort_unstable_by_key(|member| member.body);
+        for (slot, member) in (0..).zip(&self.members) {
+            self.roles[member.body as usize] = Role::Member(slot);
+        }
+        self.is_list_stale = true;
+    }
+}

@@ -1,0 +1,130 @@
+//! The list of pairs near each other: made when a member has moved by its margin, and good until then.
+
+use glam::DVec3;
+
+use super::data::{Dense, FIXED, Listed, Member, Role};
+use super::tolerance::{OLDEST_LIST, SKIN, SKIN_STEPS};
+use crate::sim::body::BodyId;
+use crate::sim::model::Model;
+use crate::sim::neighbours::{register_within, within};
+use crate::sim::pair::Pair;
+use crate::sim::state::State;
+
+/// Members that outsiders lie near, with these: who may join must be predicted anew.
+pub(super) type NearOutsiders = Vec<(u32, u32)>;
+
+/// Whether the list no longer tells all that may touch in a step from `time` on.
+pub(super) fn is_old(model: &Model, state: &State, dense: &Dense, time: f64) -> bool {
+    let step = model.dense_step;
+    dense.is_list_stale
+        || time - dense.listed_since > OLDEST_LIST * step
+        || dense.members.iter().any(|member| {
+            let path = state.path(member.body);
+            let (x, v) = (path.position(time), path.velocity(time));
+            let way = (x - member.listed_at).length();
+            way + step * (v.length() + step * path.segment.a.length()) > member.margin
+        })
+}
+
+/// Makes the list anew.
+pub(super) fn make(model: &Model, state: &mut State, dense: &mut Dense, time: f64) -> NearOutsiders {
+    place_members(model, state, dense, time);
+    let mut pairs = dynamic_pairs(model, &dense.members);
+    let outsiders = near_pairs(model, state, dense, &mut pairs);
+    pairs.sort_unstable_by_key(|listed| listed.pair);
+    carry_forces(&dense.pairs, &mut pairs);
+    dense.pairs = pairs;
+    dense.epoch = dense.epoch.wrapping_add(1);
+    dense.listed_since = time;
+    dense.is_list_stale = false;
+    outsiders
+}
+
+/// Notes where the members are, and registers them in all tiles that they may come to.
+fn place_members(model: &Model, state: &mut State, dense: &mut Dense, time: f64) {
+    for member in &mut dense.members {
+        let path = state.path(member.body);
+        let (x, v) = (path.position(time), path.velocity(time));
+        let radius = model.radius(member.body);
+        let skin = (SKIN * radius).max(SKIN_STEPS * model.dense_step * v.length());
+        member.listed_at = x;
+        member.margin = skin.max(member.widened);
+        member.widened = 0.0;
+        register_within(model, state, member.body, x, radius + member.margin);
+    }
+}
+
+/// Pairs of members, found by sorting them along the axis on which they are spread most.
+fn dynamic_pairs(model: &Model, members: &[Member]) -> Vec<Listed> {
+    let axis = longest_axis(members);
+    let reach = |member: &Member| model.radius(member.body) + member.margin;
+    let mut order: Vec<(f64, u32)> =
+        (0..).zip(members).map(|(slot, member)| (member.listed_at[axis] - reach(member), slot)).collect();
+    order.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
+    let mut pairs = Vec::new();
+    for (nth, (_, slot)) in order.iter().enumerate() {
+        let member = &members[*slot as usize];
+        let (at, reach_of_it) = (member.listed_at, reach(member));
+        let end = at[axis] + reach_of_it;
+        for (_, index) in order[nth + 1..].iter().take_while(|(low, _)| *low <= end) {
+            let other = &members[*index as usize];
+            let both = reach_of_it + reach(other);
+            if (other.listed_at - at).length_squared() <= both * both {
+                let pair = Pair::of(member.body, BodyId::of_dynamic(other.body));
+                // Members are in the order of their bodies, and so is a pair.
+                pairs.push(Listed { pair, slots: [(*slot).min(*index), (*slot).max(*index)], force: 0.0 });
+            }
+        }
+    }
+    pairs
+}
+
+fn longest_axis(members: &[Member]) -> usize {
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for member in members {
+        low = low.min(member.listed_at);
+        high = high.max(member.listed_at);
+    }
+    (high - low).max_position()
+}
+
+/// Adds pairs with static and frozen bodies; gives the outsiders in the tiles of members.
+fn near_pairs(model: &Model, state: &State, dense: &Dense, pairs: &mut Vec<Listed>) -> NearOutsiders {
+    let mut outsiders = NearOutsiders::new();
+    let mut found = Vec::new();
+    for (slot, member) in (0..).zip(&dense.members) {
+        let reach = model.radius(member.body) + member.margin;
+        within(model, state, member.listed_at, reach, &mut found);
+        for other in found.drain(..) {
+            let role = other.dynamic().map(|body| dense.role(body));
+            match role {
+                Some(Role::Member(_)) => {}
+                Some(Role::Outside) => outsiders.push((member.body, other.index())),
+                None | Some(Role::Frozen(_)) => {
+                    if distance(model, state, member.listed_at, other) <= reach {
+                        let pair = Pair::of(member.body, other);
+                        pairs.push(Listed { pair, slots: [slot, FIXED], force: 0.0 });
+                    }
+                }
+            }
+        }
+    }
+    outsiders
+}
+
+/// Distance of a point from the surface of a body that does not move, m.
+fn distance(model: &Model, state: &State, at: DVec3, other: BodyId) -> f64 {
+    let place = state.path_of(model, other).segment.x;
+    model.body(other).shape.convex().nearest(place, at).distance
+}
+
+/// Takes over the forces of pairs that were listed before; both lists are in order.
+fn carry_forces(old: &[Listed], new: &mut [Listed]) {
+    let mut old = old.iter().peekable();
+    for listed in new {
+        while old.next_if(|before| before.pair < listed.pair).is_some() {}
+        if let Some(before) = old.next_if(|before| before.pair == listed.pair) {
+            listed.force = before.force;
+        }
+    }
+}

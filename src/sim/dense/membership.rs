@@ -1,0 +1,111 @@
+//! Who is stepped: components are found, taken in, frozen and woken.
+
+use glam::DVec3;
+
+use super::data::{Dense, Member, Role};
+use super::tolerance::SAME_COMPONENT;
+use crate::sim::body::BodyId;
+use crate::sim::geometry::gap_of;
+use crate::sim::model::Model;
+use crate::sim::neighbours::within;
+use crate::sim::pair::Pair;
+use crate::sim::state::State;
+
+/// Some bodies that are not stepped, with all that they touch, directly or through others, and that are not stepped
+/// either; in order.
+pub(in crate::sim) fn component(
+    model: &Model,
+    state: &State,
+    dense: &Dense,
+    seeds: &[u32],
+    time: f64,
+) -> Vec<u32> {
+    let mut bodies: Vec<u32> = Vec::new();
+    let mut seen = vec![false; state.segments.len()];
+    let mut see = |body: u32, bodies: &mut Vec<u32>| {
+        if !dense.is_member(body) && !std::mem::replace(&mut seen[body as usize], true) {
+            bodies.push(body);
+        }
+    };
+    seeds.iter().for_each(|body| see(*body, &mut bodies));
+    let mut next = 0;
+    let mut found = Vec::new();
+    while let Some(body) = bodies.get(next).copied() {
+        next += 1;
+        for contact in &state.contacts[body as usize] {
+            if let Some(other) = contact.other.dynamic() {
+                see(other, &mut bodies);
+            }
+        }
+        let near = SAME_COMPONENT * model.radius(body);
+        within(model, state, state.position(body, time), model.radius(body) + near, &mut found);
+        for other in found.drain(..).filter_map(BodyId::dynamic) {
+            let pair = || Pair::of(body, BodyId::of_dynamic(other));
+            if other != body && gap_of(model, state, pair(), time).distance <= near {
+                see(other, &mut bodies);
+            }
+        }
+    }
+    bodies.sort_unstable();
+    bodies
+}
+
+/// Makes members of bodies that were none: their contacts are the group's from now on.
+pub(super) fn take_in(state: &mut State, dense: &mut Dense, bodies: &[u32], time: f64, group: u64) {
+    for body in bodies {
+        if matches!(dense.role(*body), Role::Frozen(_)) {
+            dense.frozen -= 1;
+        }
+        for contact in std::mem::take(&mut state.contacts[*body as usize]) {
+            if let Some(other) = contact.other.dynamic() {
+                let id = BodyId::of_dynamic(*body);
+                state.contacts[other as usize].retain(|back| back.other != id);
+            }
+        }
+        state.forget_touching(*body);
+        state.plunges.remove(body);
+        let x = state.position(*body, time);
+        dense.members.push(Member {
+            body: *body,
+            listed_at: x,
+            margin: 0.0,
+            widened: 0.0,
+            halvings: 0,
+            is_easy: true,
+            is_stepped: false,
+            idle: 0,
+            anchor: x,
+            still_since: time,
+            group,
+        });
+        dense.roles[*body as usize] = Role::Member(u32::MAX);
+    }
+    dense.renumber();
+}
+
+/// The bodies of a component at rest.
+pub(super) fn frozen_with(dense: &Dense, number: u32) -> Vec<u32> {
+    (0..).zip(&dense.roles).filter(|(_, role)| **role == Role::Frozen(number)).map(|(body, _)| body).collect()
+}
+
+/// Lets members go, which have these places among them.
+pub(super) fn release(dense: &mut Dense, bodies: &[u32], role: Role) {
+    if bodies.is_empty() {
+        return;
+    }
+    for body in bodies {
+        dense.roles[*body as usize] = role;
+        dense.frozen += usize::from(role != Role::Outside);
+    }
+    let roles = &dense.roles;
+    dense.members.retain(|member| matches!(roles[member.body as usize], Role::Member(_)));
+    dense.renumber();
+}
+
+/// A body that left, with where it goes on from.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::sim) struct Left {
+    pub body: u32,
+    pub x: DVec3,
+    pub v: DVec3,
+}

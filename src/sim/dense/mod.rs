@@ -1,0 +1,29 @@
+//! Stepped groups: bodies that touch too often for events go on in steps of model time, with impulses at the ends of
+//! steps only and exact parabolas between.
+//!
+//! The scheme is Stewart & Trinkle's (1996) and Anitescu & Potra's (1997), on the distances of the bodies, solved by
+//! projected Gauss–Seidel sweeps: no step lets a body enter another, and none gains energy, but for what the sweeps
+//! leave. It is a regime of bodies, not of the scene: a heap is stepped while what falls towards it flies on from
+//! event to event. Steps lie on a grid of model time, so that nothing depends on when somebody looks.
+//!
+//! `data` is what is stored; `activity` decides who enters, `membership` takes them in; `list` keeps who is near whom,
+//! `contact` makes the bounds of a step, `sweep` solves them, `group_step` does all that for the bodies that are due,
+//! and `rest` finds out who lies still or has left.
+
+mod activity;
+mod clock;
+mod contact;
+mod data;
+mod group_step;
+mod list;
+mod membership;
+mod rest;
+mod sweep;
+mod tolerance;
+
+pub(super) use activity::{least_crowd, note_lossy, note_work};
+pub(super) use clock::step_length;
+pub(super) use data::{Dense, Role};
+pub(super) use group_step::{enter, next_step, reach, step, wake_all};
+pub(super) use membership::component;
+pub(super) use tolerance::LARGE_ISLAND;

@@ -1,0 +1,134 @@
+//! Leaving and coming to rest: by what bodies touch, and by how far they came.
+
+use glam::DVec3;
+
+use super::contact::Stepped;
+use super::data::{Dense, FIXED, Role};
+use super::membership::{Left, release};
+use super::tolerance::{IDLE_STEPS, STILL, STILL_ENERGY, STILL_STEPS};
+use crate::sim::body::BodyId;
+use crate::sim::books::potential_of;
+use crate::sim::event::{Event, EventKind};
+use crate::sim::ledger::{rank, record};
+use crate::sim::model::Model;
+use crate::sim::motion::place;
+use crate::sim::neighbours::register_within;
+use crate::sim::segment::Segment;
+use crate::sim::state::State;
+
+/// Lets members go that have had nothing to push for some steps, and no other moving body near.
+pub(super) fn leave(model: &Model, state: &mut State, dense: &mut Dense, time: f64) -> Vec<Left> {
+    if dense.is_list_stale {
+        return Vec::new();
+    }
+    let mut has_company = vec![false; dense.members.len()];
+    for listed in &dense.pairs {
+        let [a, b] = listed.slots;
+        let is_dynamic = listed.pair.second().is_some();
+        if is_dynamic {
+            has_company[a as usize] = true;
+        }
+        if b != FIXED {
+            has_company[b as usize] = true;
+        }
+    }
+    let leaves = |slot: usize| {
+        let member = &dense.members[slot];
+        member.is_stepped
+            && !has_company[slot]
+            && member.idle >= IDLE_STEPS
+            && state.segments[member.body as usize].end <= time
+    };
+    let slots: Vec<usize> = (0..dense.members.len()).filter(|slot| leaves(*slot)).collect();
+    let left: Vec<Left> = slots.iter().map(|slot| lifted(model, state, dense, *slot, time)).collect();
+    let bodies: Vec<u32> = left.iter().map(|left| left.body).collect();
+    for left in &left {
+        register_within(model, state, left.body, left.x, model.radius(left.body));
+    }
+    release(dense, &bodies, Role::Outside);
+    left
+}
+
+/// Where a member leaves from: out of what it overlaps, which is booked.
+fn lifted(model: &Model, state: &mut State, dense: &Dense, slot: usize, time: f64) -> Left {
+    let body = dense.members[slot].body;
+    let (from, v) = (state.position(body, time), state.velocity(body, time));
+    let mut x = from;
+    for listed in dense.pairs.iter().filter(|listed| listed.slots == [slot as u32, FIXED]) {
+        let other = listed.pair.other(body);
+        let near = model.body(other).shape.convex().nearest(state.path_of(model, other).segment.x, x);
+        let depth = model.radius(body) - near.distance;
+        if depth > 0.0 {
+            x -= depth * near.towards;
+        }
+    }
+    if x != from {
+        let potential = |x: DVec3| potential_of(model, body, time, x).unwrap_or(0.0);
+        state.account.impact_losses.add(potential(from) - potential(x));
+    }
+    Left { body, x, v }
+}
+
+/// Notes which bodies moved; whether a component lies still, so that it may be frozen.
+pub(super) fn is_still(
+    model: &Model,
+    dense: &mut Dense,
+    slots: &[u32],
+    bodies: &[Stepped],
+    time: f64,
+) -> bool {
+    let mut is_still = true;
+    let (mut kinetic, mut scale) = (0.0, 0.0);
+    for (slot, body) in slots.iter().zip(bodies) {
+        let member = &mut dense.members[*slot as usize];
+        let radius = model.radius(body.body);
+        if (body.x - member.anchor).length() > STILL * radius {
+            (member.anchor, member.still_since) = (body.x, time);
+        }
+        is_still &= member.is_stepped && time - member.still_since >= STILL_STEPS * model.dense_step;
+        let mass = model.mass(body.body);
+        kinetic += 0.5 * mass * body.u.length_squared();
+        scale += mass * body.a.length() * radius;
+    }
+    is_still && kinetic <= STILL_ENERGY * scale
+}
+
+/// Lets a component lie where it is. What it still moved is lost.
+pub(super) fn freeze(model: &Model, state: &mut State, dense: &mut Dense, bodies: &[u32], time: f64) {
+    let group = bodies.iter().map(|body| group_of(dense, *body)).max().unwrap_or(0);
+    for body in bodies {
+        let (x, v) = (state.position(*body, time), state.velocity(*body, time));
+        let mass = model.mass(*body);
+        let still = Segment { constrained: true, ..Segment::ballistic(time, x, DVec3::ZERO, DVec3::ZERO) };
+        place(model, state, *body, still, None);
+        state.account.impact_losses.add(0.5 * mass * v.length_squared());
+        state.account.impulses.add(-mass * v);
+        register_within(model, state, *body, x, model.radius(*body));
+    }
+    dense.last_frozen += 1;
+    let number = dense.last_frozen;
+    release(dense, bodies, Role::Frozen(number));
+    record_group(model, state, EventKind::GroupRest, bodies, group, time);
+}
+
+/// The group that a member entered with; 0 for one that joined others.
+fn group_of(dense: &Dense, body: u32) -> u64 {
+    let Role::Member(slot) = dense.role(body) else { return 0 };
+    dense.members[slot as usize].group
+}
+
+/// A row about a whole group: its body of the smallest UserID stands for it.
+pub(super) fn record_group(
+    model: &Model,
+    state: &mut State,
+    kind: EventKind,
+    bodies: &[u32],
+    group: u64,
+    time: f64,
+) {
+    let ids = bodies.iter().map(|body| BodyId::of_dynamic(*body));
+    let Some(first) = ids.min_by_key(|id| rank(model, id.to_ref())) else { return };
+    let at = state.position(first.index(), time);
+    let event = Event::of_one(time, kind, first.to_ref(), at);
+    record(state, Event { group, bodies: bodies.len() as u32, ..event });
+}

@@ -1,0 +1,120 @@
+//! The thresholds of stepped groups, as shares of the bodies' radii, of the acceleration that drives them and of the
+//! step. Those that a scene can set are in [`crate::scene::PARAMS`].
+//!
+//! Each says why it has its value, and what breaks where it is smaller or larger.
+
+// The step.
+
+/// A step may leave so much of the smallest radius unsolved, g·h²: a fifth of the overlap that is allowed. Smaller
+/// costs steps, larger overlap.
+pub(super) const FALL_IN_A_STEP: f64 = 2e-4;
+
+/// Where nothing drives bodies, they move by at most this part of the smallest radius in a step.
+pub(super) const WAY_IN_A_STEP: f64 = 0.02;
+
+/// A step may be halved so often. Errors fall with the square of the step; slim columns need it, and bodies that pass
+/// more than a share of their radius in a step.
+pub(super) const MOST_HALVINGS: u8 = 8;
+
+/// Halvings after which a step that does not converge is taken as it is: the residual is overlap, which is shown.
+pub(super) const MOST_HALVINGS_TO_CONVERGE: u8 = 4;
+
+/// Whoever passes more than this part of its radius in a step needs shorter ones: the half-space that keeps bodies
+/// apart would be met beside the body.
+pub(super) const WAY_OF_RADIUS: f64 = 0.25;
+
+/// A first step shorter than this part of a step is joined to the next.
+pub(super) const SHORTEST_STEP: f64 = 0.125;
+
+/// Times that a step is begun anew because somebody is thrown beyond what the list covers, or wakes what lies still.
+/// Each time the list covers more; more tries are needed by none.
+pub(super) const MOST_ATTEMPTS: u32 = 8;
+
+// Contacts.
+
+/// Overlap from which bodies need not part, in radii: room to give back what the curvature of a way opened.
+pub(super) const ROOM: f64 = 4e-4;
+
+/// Within that room they part at this share of the speed at which they met. At 1 they tremble for ever, at 0 they stay
+/// where they overlap.
+pub(super) const PARTING: f64 = 0.5;
+
+/// Bodies that meet slower than so many times g·h land: a bounce shorter than twice as many steps is not resolved.
+pub(super) const SLOWEST_REBOUND: f64 = 4.0;
+
+/// A pair farther apart than it can come in a step, and this part of the radius, waits until it is seen to meet.
+pub(super) const LAZY: f64 = 0.02;
+
+// The sweeps.
+
+/// Sweeps end when the largest change is below this part of the way that a body passes in a step on average: what the
+/// solver leaves stays below the motion, so that heaps come to rest.
+pub(super) const SHARE_OF_WAY: f64 = 0.1;
+
+/// The same change is never asked to be smaller than this, nor allowed to be larger than the next, in radii.
+pub(super) const FINEST: f64 = 2e-6;
+pub(super) const COARSEST: f64 = 1e-4;
+
+/// Nor larger than this part of what is left of the overlap budget of a contact, in radii.
+pub(super) const BUDGET: f64 = 8e-4;
+pub(super) const SHARE_OF_BUDGET: f64 = 0.25;
+
+/// For a contact that has used up its budget the smallest change is this part of the usual one: it parts no more, and
+/// what the sweeps leave adds up.
+pub(super) const FINEST_OF_DEEP: f64 = 0.1;
+
+/// Sweeps before a step is halved.
+pub(super) const MOST_SWEEPS: usize = 400;
+
+/// More sweeps follow while a component gains more than this part of m·g·r of its smallest body, but no more than so
+/// many.
+pub(super) const GAIN: f64 = 1e-5;
+pub(super) const SWEEPS_AGAINST_GAIN: usize = 50;
+
+// The list of pairs.
+
+/// A body may move by this part of its radius, or by so many steps, before the list is made anew.
+pub(super) const SKIN: f64 = 0.1;
+pub(super) const SKIN_STEPS: f64 = 6.0;
+
+/// The list is made anew after so many steps at the latest, so that bodies that left are found.
+pub(super) const OLDEST_LIST: f64 = 64.0;
+
+// Entering.
+
+/// Lossy impacts of a body, each forgotten by half in four steps, from which its component is stepped if it has so many
+/// moving bodies: some 45 a step. Fewer, and small heaps are stepped that come to rest by themselves, and balls
+/// squeezed between two others do not rebound; more, and heaps stall for longer.
+pub(super) const CROWDED: f64 = 256.0;
+pub(super) const HALF_LIFE: f64 = 4.0;
+pub(super) const SMALLEST_CROWD: usize = 4;
+
+/// Lossy impacts of one body at one instant from which its component is stepped, whatever the others say: no endless
+/// series of impacts without time can outlive it.
+pub(super) const MOST_AT_ONE_INSTANT: u32 = 32;
+
+/// Moving bodies of one lossy impact, or held together, from which they are stepped.
+pub(in crate::sim) const LARGE_ISLAND: usize = 64;
+
+/// What it costs to resolve or integrate n lossy bodies together grows with n³: in units of ten, this. Half of it is
+/// forgotten in some steps, and from this sum on the bodies are stepped: where thirty are resolved every twenty steps,
+/// ten once a step. Less, and small heaps are stepped that events would get through; more, and heaps crawl.
+pub(super) const WORK_OF_CUBE: f64 = 1e-3;
+pub(super) const HALF_LIFE_OF_WORK: f64 = 64.0;
+pub(super) const TOO_MUCH_WORK: f64 = 128.0;
+
+/// Bodies nearer than this, in radii, are of one component.
+pub(super) const SAME_COMPONENT: f64 = 1e-3;
+
+// Leaving.
+
+/// Steps without a force after which a body that has no other near may leave.
+pub(super) const IDLE_STEPS: u32 = 8;
+
+/// Steps over which no body of a component must have moved by more than this part of its radius for it to rest: an
+/// acceleration of 3e-3 g would have moved it by twice that.
+pub(super) const STILL_STEPS: f64 = 256.0;
+pub(super) const STILL: f64 = 1e-2;
+
+/// And the largest kinetic energy of a component at rest, as a part of Σ m·g·r.
+pub(super) const STILL_ENERGY: f64 = 1e-5;

@@ -1,0 +1,174 @@
+//! Stepped groups: heaps come to rest, wake, gain nothing, and depend on nothing but the scene.
+
+use glam::{DVec3, dvec3};
+use polyscene::scene::{NodeKey, Scene};
+use polyscene::sim::{ContactState, Event, EventKind, SimEdit, Simulation};
+use polyscene::study::Random;
+
+use crate::common::build::{Build, Shaped, ball};
+use crate::common::contact_scenes::{ContactScene, scaled};
+use crate::common::drive::{Sampling, assert_same_bits, run, simulation, watch};
+use crate::common::heaps::{BOX, GRAVITY, Heap, RADIUS};
+
+/// Looks between events, s.
+const LOOK: Sampling = Sampling::Every(1.0 / 128.0);
+
+/// Runs on until a time, looking often: nothing overlaps, leaves or gains; gives the events.
+fn watched(heap: &Heap, sim: &mut Simulation, scene: &Scene, until: f64) -> Vec<Event> {
+    // Of a ball of 1 kg.
+    let most = 1e-2 * -GRAVITY * RADIUS * heap.heaviest;
+    let (mut events, mut lowest) = (Vec::new(), f64::INFINITY);
+    watch(sim, until, LOOK, |sim, event| {
+        events.extend(event);
+        let overlap = heap.overlap(sim, scene);
+        assert!(overlap <= 1e-3, "t {}: overlap {overlap:e} of a radius", sim.time());
+        let escape = heap.escape(sim);
+        assert!(escape <= 0.0, "t {}: {escape:e} m out of the box", sim.time());
+        let energy = sim.energy();
+        let total = energy.total.expect("gravity has a potential");
+        lowest = lowest.min(total);
+        assert!(total - lowest <= most, "t {}: up by {:e} J", sim.time(), total - lowest);
+        let residual = energy.residual.expect("all work is known");
+        assert!(residual.abs() <= 1e-11, "t {}: residual {residual:e}", sim.time());
+    });
+    assert!(sim.momentum().residual <= 1e-11, "momentum {:e}", sim.momentum().residual);
+    events
+}
+
+fn count(events: &[Event], kind: EventKind) -> usize {
+    events.iter().filter(|event| event.kind == kind).count()
+}
+
+fn count_of(sim: &Simulation, state: ContactState) -> usize {
+    let bodies = sim.dynamic_bodies().filter_map(|body| sim.state(body));
+    bodies.filter(|body| body.contact == state).count()
+}
+
+#[test]
+fn small_heaps_come_to_rest() {
+    for balls in [5, 8, 12, 27] {
+        for (restitution, seed) in [(0.2, 1), (0.5, 2), (0.8, 3)] {
+            let heap = Heap::of(balls, restitution, seed);
+            let scene = heap.scene();
+            let mut sim = simulation(&scene);
+            watched(&heap, &mut sim, &scene, 5.0);
+            let resting = count_of(&sim, ContactState::Rest);
+            assert_eq!(resting, balls, "of {balls} balls of {restitution}, seed {seed}");
+        }
+    }
+}
+
+#[test]
+fn heaps_of_balls_of_many_sizes_and_masses_hold() {
+    let heap = Heap { smallest: 1.0 / 3.0, heaviest: 1000.0, ..Heap::of(40, 0.2, 5) };
+    let scene = heap.scene();
+    let mut sim = simulation(&scene);
+    let events = watched(&heap, &mut sim, &scene, 2.0);
+    assert!(count(&events, EventKind::Dense) > 0);
+}
+
+#[test]
+fn a_column_in_single_file_holds() {
+    let heap = Heap { width: 2.4 * RADIUS, ..Heap::of(30, 0.2, 6) };
+    let scene = heap.scene();
+    let mut sim = simulation(&scene);
+    watched(&heap, &mut sim, &scene, 2.0);
+    assert!(sim.counters().steps > 0);
+}
+
+#[test]
+fn stepped_groups_are_the_same_bits_for_every_dt_tiling_and_file_order() {
+    let scene = Heap::of(40, 0.3, 7).scene();
+    let until = 1.5;
+    let expected = run(&scene, until, Sampling::Every(1.0 / 60.0));
+    assert!(expected.events.iter().any(|event| event.kind == EventKind::Dense));
+    for sampling in [Sampling::Every(1.0), Sampling::Every(1e-3), Sampling::Random(3), Sampling::Events] {
+        assert_same_bits(&expected, &run(&scene, until, sampling), &format!("{sampling:?}"));
+    }
+    for tiles in [1, 10, 37] {
+        let other = scene.clone().tiles([tiles; 3]);
+        assert_same_bits(
+            &expected,
+            &run(&other, until, Sampling::Every(1.0 / 60.0)),
+            &format!("{tiles} tiles"),
+        );
+    }
+    let mut shuffled = scene.clone();
+    Random::new(1).shuffle(&mut shuffled.bodies);
+    assert_same_bits(&expected, &run(&shuffled, until, Sampling::Every(1.0 / 60.0)), "another order");
+}
+
+#[test]
+fn stepped_groups_scale() {
+    let scene = Heap::of(12, 0.3, 8).scene();
+    let expected = run(&scene, 1.5, Sampling::Every(1.0 / 60.0));
+    let length = 1024.0;
+    let whole = ContactScene { what: "a heap".into(), scene, until: 1.5, most_events: u64::MAX };
+    // Lengths by 4⁵, times by 2⁵: gravity stays.
+    let scaled = scaled(&whole, length, 32.0).scene;
+    let got = run(&scaled, 48.0, Sampling::Every(32.0 / 60.0));
+    assert_eq!(expected.events.len(), got.events.len());
+    for (one, other) in expected.events.iter().zip(&got.events) {
+        assert_eq!((one.kind, 32.0 * one.time, one.a), (other.kind, other.time, other.a));
+    }
+    for ((_, one), (_, other)) in expected.states.iter().zip(&got.states) {
+        assert_eq!(length * one.position, other.position);
+    }
+}
+
+/// A heap that has come to rest.
+fn frozen(balls: usize) -> (Heap, Scene, Simulation) {
+    let heap = Heap::of(balls, 0.2, 9);
+    let scene = heap.scene();
+    let mut sim = simulation(&scene);
+    watched(&heap, &mut sim, &scene, 5.0);
+    assert_eq!(count_of(&sim, ContactState::Rest), balls);
+    (heap, scene, sim)
+}
+
+#[test]
+fn a_ball_dropped_on_a_frozen_heap_wakes_it() {
+    let (heap, mut scene, mut sim) = frozen(30);
+    let middle = 2.0 + 0.5 * heap.width();
+    let mut ball = ball(99, dvec3(middle, 6.0, middle), DVec3::ZERO).radius(RADIUS).bounce(0.5);
+    ball.key = NodeKey(777_777);
+    scene = scene.body(ball.clone());
+    sim.apply(&SimEdit::AddBody(Box::new(ball))).expect("it is added");
+    let events = watched(&heap, &mut sim, &scene, 10.0);
+    assert!(count(&events, EventKind::Dense) >= 1);
+    assert!(count(&events, EventKind::GroupRest) >= 1);
+    assert_eq!(count_of(&sim, ContactState::Rest), 31);
+}
+
+#[test]
+fn a_frozen_heap_falls_apart_when_a_wall_is_taken_away() {
+    let (_, scene, mut sim) = frozen(30);
+    let wall = scene.bodies.iter().find(|body| body.id == BOX[1]).expect("there is a wall");
+    let leftmost = |sim: &Simulation| {
+        let states = sim.dynamic_bodies().filter_map(|body| sim.state(body));
+        states.map(|state| state.position.x).fold(f64::INFINITY, f64::min)
+    };
+    let before = leftmost(&sim);
+    sim.apply(&SimEdit::Remove(wall.key)).expect("it is removed");
+    sim.begin(6.0);
+    sim.finish(&mut |_, _| {}).expect("it goes on");
+    assert!(leftmost(&sim) < before - RADIUS);
+    assert!(sim.energy().residual.is_some_and(|residual| residual.abs() <= 1e-11));
+}
+
+#[test]
+fn a_frozen_heap_wakes_when_gravity_changes_and_rests_again() {
+    let (heap, scene, mut sim) = frozen(27);
+    let mut force = scene.forces[0].clone();
+    let gravity = |acceleration: DVec3| polyscene::scene::ForceKind::GravityPlane {
+        position: DVec3::ZERO,
+        acceleration,
+    };
+    force.kind = gravity(DVec3::ZERO);
+    sim.apply(&SimEdit::ChangeForce(Box::new(force.clone()))).expect("it changes");
+    watched(&heap, &mut sim, &scene, 6.0);
+    force.kind = gravity(dvec3(0.5, GRAVITY, 0.0));
+    sim.apply(&SimEdit::ChangeForce(Box::new(force))).expect("it changes");
+    watched(&heap, &mut sim, &scene, 12.0);
+    assert_eq!(count_of(&sim, ContactState::Rest), 27);
+}
