@@ -19,7 +19,7 @@ use super::body::BodyId;
 use super::constraint::enter_none;
 use super::geometry::{BodiesAt, contact_distance, gap_of, restitution_of, surface_of};
 use super::island::Island;
-use super::link::Link;
+use super::link::{Link, renumber};
 use super::model::Model;
 use super::nearest::nearest;
 use super::neighbours::near;
@@ -198,10 +198,16 @@ impl Group {
 
     /// Throws connected contacts back, all at once.
     fn reflect(&mut self, contacts: &[usize]) {
-        let links: Vec<Link> = contacts.iter().map(|k| self.members[*k].link).collect();
+        let mut links: Vec<Link> = contacts.iter().map(|k| self.members[*k].link).collect();
         let closing: Vec<f64> = links.iter().map(|link| link.entering(&self.bodies.v)).collect();
+        let bodies = renumber(&mut links);
+        let inverse_mass: Vec<f64> = bodies.iter().map(|body| self.bodies.inverse_mass[*body]).collect();
+        let mut motion: Vec<DVec3> = bodies.iter().map(|body| self.bodies.v[*body]).collect();
+        let multipliers = enter_none(&links, &inverse_mass, &mut motion).multipliers;
         let mut plastic = self.bodies.v.clone();
-        let multipliers = enter_none(&links, &self.bodies.inverse_mass, &mut plastic).multipliers;
+        for (body, v) in bodies.into_iter().zip(motion) {
+            plastic[body] = v;
+        }
         let taken: Vec<f64> =
             multipliers.iter().zip(&closing).map(|(multiplier, closing)| multiplier * closing).collect();
         let restitution = self.shared_restitution(contacts, &taken);

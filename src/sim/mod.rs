@@ -32,6 +32,7 @@ mod impact;
 mod island;
 mod ledger;
 mod link;
+mod loads;
 mod motion;
 mod nearest;
 mod neighbours;

@@ -8,28 +8,24 @@
 
 use glam::DVec3;
 
-use super::link::Link;
-use super::tolerance::{DEPENDENT, ENTERING, LEFT_OVER, ONE_DIRECTION, SHARING};
-
-/// What [`nearest`] finds besides the motion.
-#[derive(Clone, Debug)]
-pub(super) struct Solved {
-    /// Of the links, ≥ 0 but for those of `both`: impulses for velocities, forces for accelerations.
-    pub multipliers: Vec<f64>,
-    /// Length of all that the motion of each body is the sum of: what is left is known to some roundings of it.
-    pub sizes: Vec<f64>,
-}
-
-impl Solved {
-    /// Length of all that decides how fast a link enters.
-    pub fn size(&self, link: &Link) -> f64 {
-        self.sizes[link.a] + link.b.map_or(0.0, |b| self.sizes[b]) + link.limit
-    }
-}
+use super::link::{Link, Solved};
+use super::loads::{Loads, Problem};
+use super::tolerance::{DEPENDENT, ENTERING, FEW_LINKS, LEFT_OVER, ONE_DIRECTION, SHARING};
 
 /// Turns a motion into the nearest one in which no link enters faster than its limit, and those of `both`
 /// neither enter nor leave.
 pub(super) fn nearest(links: &[Link], both: &[bool], inverse_mass: &[f64], motion: &mut [DVec3]) -> Solved {
+    nearest_from(&mut Loads::default(), links, both, inverse_mass, motion)
+}
+
+/// The same, with the loads of a problem like it to start from, which become those of this one.
+pub(super) fn nearest_from(
+    loads: &mut Loads,
+    links: &[Link],
+    both: &[bool],
+    inverse_mass: &[f64],
+    motion: &mut [DVec3],
+) -> Solved {
     let met = |k: usize| {
         let excess = links[k].entering(motion) - links[k].limit;
         if both[k] { excess == 0.0 } else { excess <= 0.0 }
@@ -38,6 +34,19 @@ pub(super) fn nearest(links: &[Link], both: &[bool], inverse_mass: &[f64], motio
         let sizes = motion.iter().map(|w| w.length()).collect();
         return Solved { multipliers: vec![0.0; links.len()], sizes };
     }
+    if links.len() > FEW_LINKS {
+        let problem = Problem { links, both, inverse_mass };
+        if let Some(solved) = loads.bring_within(&problem, motion) {
+            return solved;
+        }
+    }
+    let solved = search(links, both, inverse_mass, motion);
+    *loads = Loads::from(&solved.multipliers);
+    solved
+}
+
+/// The same by the search along an orthogonal basis.
+fn search(links: &[Link], both: &[bool], inverse_mass: &[f64], motion: &mut [DVec3]) -> Solved {
     let mut search = Search::new(links, both, inverse_mass, motion, 0.0);
     search.run();
     let mut multipliers = search.multipliers();
@@ -189,8 +198,7 @@ impl<'a> Search<'a> {
     }
 
     fn tolerance(&self, link: usize) -> f64 {
-        let link = &self.links[link];
-        ENTERING * (self.sizes[link.a] + link.b.map_or(0.0, |b| self.sizes[b]) + link.limit)
+        ENTERING * self.links[link].size_of(&self.sizes)
     }
 
     /// The link that oversteps its limit most, for its rounding.
