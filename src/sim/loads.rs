@@ -11,7 +11,9 @@
 use glam::DVec3;
 
 use super::link::{Link, Solved};
-use super::tolerance::{ENTERING, LEFT_OVER, LOADED, MOST_EXCHANGES, MOST_STEPS, PROXIMAL, STALE};
+use super::tolerance::{
+    ENTERING, HELD_ALONE, LEFT_OVER, LOADED, MOST_EXCHANGES, MOST_STEPS, PROXIMAL, STALE,
+};
 
 /// Loads of one problem, from which that of the next one like it starts: of the same links, a little later.
 #[derive(Clone, Debug, Default)]
@@ -82,7 +84,7 @@ impl Loads {
             if !are_met {
                 let worst = left.iter().map(|left| left.abs()).fold(0.0, f64::max);
                 if self.factor.is_none() || (!is_own && worst > STALE * last) {
-                    self.factor = Some(Factor::of(problem, &self.set)?);
+                    self.factor = Some(Factor::of(problem, &self.set, PROXIMAL)?);
                     is_own = true;
                 }
                 last = worst;
@@ -174,6 +176,22 @@ impl Under {
     }
 }
 
+/// What a unit of force at each link changes there while all the others hold, 1/(A⁻¹)ₖₖ; `None` where that is next to
+/// nothing for one of them, so that rounding could decide.
+pub(super) fn responses_of(links: &[Link], inverse_mass: &[f64]) -> Option<Vec<f64>> {
+    let problem = Problem { links, both: &[], inverse_mass };
+    let all: Vec<usize> = (0..links.len()).collect();
+    let factor = Factor::of(&problem, &all, 0.0)?;
+    let response = |k: usize| {
+        let mut unit = vec![0.0; links.len()];
+        unit[k] = 1.0;
+        factor.solve(&mut unit);
+        let response = 1.0 / unit[k];
+        (response > HELD_ALONE * links[k].response(&links[k], inverse_mass)).then_some(response)
+    };
+    all.iter().map(|k| response(*k)).collect()
+}
+
 /// The triangle L of A + σ diag A = L Lᵀ for the links of a set. Rows are kept from their first entry on, before which
 /// L has none either.
 #[derive(Clone, Debug)]
@@ -192,7 +210,7 @@ struct Row {
 
 impl Factor {
     /// `None` if the links can't be told apart, or nothing moves the bodies of one.
-    fn of(problem: &Problem<'_>, set: &[usize]) -> Option<Self> {
+    fn of(problem: &Problem<'_>, set: &[usize], proximal: f64) -> Option<Self> {
         let mut factor = Self { rows: Vec::with_capacity(set.len()), entries: Vec::new() };
         for i in 0..set.len() {
             let link = &problem.links[set[i]];
@@ -202,13 +220,13 @@ impl Factor {
             for k in &set[first..=i] {
                 factor.entries.push(link.response(&problem.links[*k], problem.inverse_mass));
             }
-            factor.reduce_last()?;
+            factor.reduce_last(proximal)?;
         }
         Some(factor)
     }
 
     /// Turns the last row from one of A into one of L; `None` if nothing is left of its diagonal.
-    fn reduce_last(&mut self) -> Option<()> {
+    fn reduce_last(&mut self, proximal: f64) -> Option<()> {
         let i = self.rows.len() - 1;
         let Row { first, start } = self.rows[i];
         let (above, row) = self.entries.split_at_mut(start);
@@ -220,7 +238,7 @@ impl Factor {
             row[j - first] = (row[j - first] - dot(&row[from - first..j - first], theirs)) / diagonal;
         }
         let (diagonal, before) = row.split_last_mut()?;
-        let left = *diagonal * (1.0 + PROXIMAL) - dot(before, before);
+        let left = *diagonal * (1.0 + proximal) - dot(before, before);
         *diagonal = left.sqrt();
         (left > 0.0).then_some(())
     }

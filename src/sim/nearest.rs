@@ -9,7 +9,7 @@
 use glam::DVec3;
 
 use super::link::{Link, Solved};
-use super::loads::{Loads, Problem};
+use super::loads::{Loads, Problem, responses_of};
 use super::tolerance::{DEPENDENT, ENTERING, FEW_LINKS, LEFT_OVER, ONE_DIRECTION, SHARING};
 
 /// Turns a motion into the nearest one in which no link enters faster than its limit, and those of `both`
@@ -64,6 +64,11 @@ fn search(links: &[Link], both: &[bool], inverse_mass: &[f64], motion: &mut [DVe
 /// What a unit of force at each link changes there while all the others of the set hold; where these would
 /// hold it alone, what it changes by itself.
 pub(super) fn responses(links: &[Link], inverse_mass: &[f64]) -> Vec<f64> {
+    if links.len() > FEW_LINKS
+        && let Some(responses) = responses_of(links, inverse_mass)
+    {
+        return responses;
+    }
     let still = vec![DVec3::ZERO; inverse_mass.len()];
     let both = vec![true; links.len()];
     let mut search = Search::new(links, &both, inverse_mass, &still, 0.0);
@@ -137,7 +142,8 @@ impl<'a> Search<'a> {
         motion: &[DVec3],
         sharing: f64,
     ) -> Self {
-        let own = links.iter().map(|link| sharing * link.response(link, inverse_mass).sqrt()).collect();
+        let shared = if sharing > 0.0 { links } else { &[] };
+        let own = shared.iter().map(|link| sharing * link.response(link, inverse_mass).sqrt()).collect();
         Self {
             links,
             both,

@@ -158,3 +158,7 @@ pub(super) const STALE: f64 = 0.02;
 /// lead to a search in vain, more cost time where there is no answer.
 pub(super) const MOST_STEPS: u32 = 40;
 pub(super) const MOST_EXCHANGES: u32 = 12;
+
+/// The response of a link beside others is told from the matrix of the contacts where more than this part of it is left:
+/// it is off by roundings over this. Smaller loses digits, larger costs time.
+pub(super) const HELD_ALONE: f64 = 1e-2;
