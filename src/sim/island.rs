@@ -7,6 +7,7 @@ use glam::DVec3;
 
 use super::constraint::{enter_none, enter_none_from, stay_on, stay_on_from};
 use super::event::EventKind;
+use super::force::{ForceEntry, Law};
 use super::geometry::{BodiesAt, surface_of};
 use super::ledger::record_contact;
 use super::link::{Link, Solved};
@@ -177,8 +178,8 @@ pub(super) fn part(model: &Model, state: &mut State, pair: Pair, time: f64) {
 }
 
 /// Lets an island go on: books the old segments of its bodies and begins new ones. Bodies that rest or
-/// slide on flat faces, without moving against each other, go on along parabolas. Others, and all in fields,
-/// are integrated together.
+/// slide on flat faces, without moving against each other, go on along parabolas, and what is still stays. Others, and
+/// all that move in fields, are integrated together.
 pub(super) fn begin_island(
     model: &Model,
     state: &mut State,
@@ -194,7 +195,8 @@ pub(super) fn begin_island(
     let links = island.links(model);
     let mut accelerations = island.free(model, time);
     let solved = enter_none(&links, &island.inverse_mass, &mut accelerations);
-    let steps: Vec<Step> = if is_steady(model, island, &links, &accelerations) {
+    let goes_on = is_still(model, island, &accelerations) || is_steady(model, island, &links, &accelerations);
+    let steps: Vec<Step> = if goes_on {
         let rows = island.x.iter().zip(&island.v).zip(&accelerations);
         rows.map(|((x, v), a)| (Segment::ballistic(time, *x, *v, *a), None)).collect()
     } else {
@@ -234,6 +236,13 @@ fn book(state: &mut State, island: &Island, before: &[DVec3]) {
             state.account.impact_losses.add(-0.5 * way.dot(*new + *old) / *inverse_mass);
         }
     }
+}
+
+/// Whether an island at rest stays so: nothing about its forces depends on time.
+fn is_still(model: &Model, island: &Island, accelerations: &[DVec3]) -> bool {
+    let depends_on_time = |force: &ForceEntry| matches!(force.law, Law::Custom(_));
+    island.v.iter().chain(accelerations).all(|way| *way == DVec3::ZERO)
+        && !model.forces.iter().any(depends_on_time)
 }
 
 /// Whether nothing about the contacts and forces of an island will change along parabolas.

@@ -69,6 +69,10 @@ pub(super) fn responses(links: &[Link], inverse_mass: &[f64]) -> Vec<f64> {
     {
         return responses;
     }
+    responses_by_search(links, inverse_mass)
+}
+
+fn responses_by_search(links: &[Link], inverse_mass: &[f64]) -> Vec<f64> {
     let still = vec![DVec3::ZERO; inverse_mass.len()];
     let both = vec![true; links.len()];
     let mut search = Search::new(links, &both, inverse_mass, &still, 0.0);
@@ -471,6 +475,60 @@ mod tests {
             };
             let (whole, left, across) = (of(&start, &start), of(&found, &found), of(&start, &found));
             assert!((across - left).abs() <= 1e-12 * whole, "case {case}, {apart:e}: {:e}", across - left);
+        }
+    }
+
+    /// Heaps as contacts make them: what is found from loads, from none or from those of a little before, is what the
+    /// search finds.
+    #[test]
+    fn loads_lead_to_what_the_search_finds() {
+        let mut seed = 7_u64;
+        let mut random = move || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        };
+        let (mut found_from_loads, cases) = (0, 400);
+        for case in 0..cases {
+            let bodies = 4 + case % 12;
+            let inverse_mass: Vec<f64> = (0..bodies).map(|_| libm::exp(random())).collect();
+            let mut links: Vec<Link> = (0..2 * bodies)
+                .map(|k| {
+                    let towards = DVec3::new(random(), random() - 2.0, random()).normalize();
+                    let (a, b) = (k % bodies, (k * 5 + 1) % bodies);
+                    Link { a, b: (a > b).then_some(b), towards, limit: 0.1 * random().max(0.0) }
+                })
+                .collect();
+            let free = vec![DVec3::NEG_Y; bodies];
+            let both = vec![case % 3 == 0; links.len()];
+            let mut loads = Loads::default();
+            for _ in 0..3 {
+                let (mut expected, mut motion) = (free.clone(), free.clone());
+                search(&links, &both, &inverse_mass, &mut expected);
+                let problem = Problem { links: &links, both: &both, inverse_mass: &inverse_mass };
+                if loads.bring_within(&problem, &mut motion).is_some() {
+                    found_from_loads += 1;
+                    for (expected, found) in expected.iter().zip(&motion) {
+                        assert!((*expected - *found).length() <= 1e-11, "case {case}: {expected} {found}");
+                    }
+                }
+                for link in &mut links {
+                    link.towards =
+                        (link.towards + 1e-4 * DVec3::new(random(), random(), random())).normalize();
+                }
+            }
+        }
+        assert!(found_from_loads > 2 * cases, "{found_from_loads} of {}", 3 * cases);
+    }
+
+    #[test]
+    fn responses_are_the_same_by_either_way() {
+        let towards = |k: usize| DVec3::new(libm::sin(k as f64), -1.0, libm::cos(3.0 * k as f64)).normalize();
+        let link = |k: usize| Link { a: k, b: k.checked_sub(1), towards: towards(k), limit: 0.0 };
+        let links: Vec<Link> = (0..9).map(link).collect();
+        let inverse_mass: Vec<f64> = (0..9).map(|k| 1.0 / (1.0 + k as f64)).collect();
+        let found = responses_of(&links, &inverse_mass).unwrap();
+        for (found, expected) in found.iter().zip(responses_by_search(&links, &inverse_mass)) {
+            assert!((found - expected).abs() <= 1e-14 * expected, "{found} {expected}");
         }
     }
 }
