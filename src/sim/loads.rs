@@ -12,7 +12,7 @@ use glam::DVec3;
 
 use super::link::{Link, Solved};
 use super::tolerance::{
-    ENTERING, HELD_ALONE, LEFT_OVER, LOADED, MOST_EXCHANGES, MOST_STEPS, PROXIMAL, STALE,
+    ENTERING, HELD_ALONE, LEFT_OVER, LOADED, MOST_EXCHANGES, MOST_STEPS, PROJECTED, PROXIMAL, STALE,
 };
 
 /// Loads of one problem, from which that of the next one like it starts: of the same links, a little later.
@@ -46,13 +46,20 @@ impl Loads {
         let mut at = self.start(problem, motion);
         self.iterate(problem, motion, &mut at)?;
         let most = LOADED * problem.largest(motion);
-        if at.sizes.iter().any(|size| *size > most) {
+        let is_overloaded = at.sizes.iter().any(|size| *size > most);
+        if is_overloaded || self.defect(problem, &at) > PROJECTED * problem.energy(motion) {
             return None;
         }
         for ((w, found), size) in motion.iter_mut().zip(&at.motion).zip(&at.sizes) {
             *w = if found.length() <= LEFT_OVER * size { DVec3::ZERO } else { *found };
         }
         Some(Solved { multipliers: self.multipliers.clone(), sizes: at.sizes })
+    }
+
+    /// How far the motion found is from a projection, Σ λ·(N w − limit), J for velocities: the loads enlarge what rounding
+    /// leaves.
+    fn defect(&self, problem: &Problem<'_>, at: &Under) -> f64 {
+        self.set.iter().map(|k| (self.multipliers[*k] * at.excess(problem, *k)).abs()).sum()
     }
 
     /// The motion under the loads known. Without any, all bounds that are overstepped are of the set.
@@ -135,6 +142,12 @@ impl Loads {
 }
 
 impl Problem<'_> {
+    /// Σ m|w|² of the bodies that can move.
+    fn energy(&self, motion: &[DVec3]) -> f64 {
+        let bodies = motion.iter().zip(self.inverse_mass).filter(|(_, inverse)| **inverse > 0.0);
+        bodies.map(|(w, inverse)| w.length_squared() / inverse).sum()
+    }
+
     /// The largest of a motion's and of the limits.
     fn largest(&self, motion: &[DVec3]) -> f64 {
         let limits = self.links.iter().map(|link| link.limit);

@@ -1,4 +1,5 @@
-//! The nearest motion within bounds, by the dual active set method of Goldfarb & Idnani (1983, Math. Prog. 27).
+//! The nearest motion within bounds: of many bounds from their loads ([`super::loads`]) where these tell it, else by the
+//! dual active set method of Goldfarb & Idnani (1983, Math. Prog. 27).
 //!
 //! In the metric of masses, ‖w‖² = Σ mᵢ|wᵢ|², the bound of a link is a half-space with the normal d = M⁻¹nᵀ, the
 //! motion that a unit impulse gives. The method starts at the motion without bounds and adds the bound that is

@@ -150,6 +150,10 @@ pub(super) const PROXIMAL: f64 = 1e-10;
 /// and steep wedges are searched for in vain first; more, and a heavy ball sinks through a light one.
 pub(super) const LOADED: f64 = 1e3;
 
+/// A motion found from loads is a projection to this part of its energy, or it is searched for: smaller searches in vain
+/// in every jam, larger makes energy of rounding.
+pub(super) const PROJECTED: f64 = 1e-13;
+
 /// What a step with the factor of a problem nearby may leave of what was overstepped, before that of the problem itself
 /// is made, which costs some eight steps. Larger takes more steps, smaller makes factors in vain.
 pub(super) const STALE: f64 = 0.02;
