@@ -6,7 +6,7 @@
 //! their load with the least forces. The motion is made from the loads anew after each step, and what it oversteps is
 //! the measure: so the factor may be that of a problem nearby, and its rounding does not matter. What rounding makes of
 //! the motion itself does: where loads exceed the motion by far (a heavy ball on a light one), or where no loads meet
-//! all bounds, there is no answer here, and [`super::nearest`] searches along an orthogonal basis.
+//! all bounds, there is no answer here, and [`super::nearest`] looks for it by search.
 
 use glam::DVec3;
 

@@ -40,6 +40,7 @@ mod predict;
 mod restart;
 mod restitution;
 mod roots;
+mod search;
 mod settle;
 mod stepping;
 mod tiles;
