@@ -6,17 +6,38 @@
 
 use glam::DVec3;
 
-use super::link::Link;
-use super::nearest::{Solved, nearest};
+use super::link::{Link, Solved};
+use super::loads::Loads;
+use super::nearest::{nearest, nearest_from};
 
 /// Turns a motion into the nearest one that enters no surface faster than its limit.
 pub(super) fn enter_none(links: &[Link], inverse_mass: &[f64], motion: &mut [DVec3]) -> Solved {
     nearest(links, &vec![false; links.len()], inverse_mass, motion)
 }
 
+/// The same, with the loads of a problem like it to start from.
+pub(super) fn enter_none_from(
+    loads: &mut Loads,
+    links: &[Link],
+    inverse_mass: &[f64],
+    motion: &mut [DVec3],
+) -> Solved {
+    nearest_from(loads, links, &vec![false; links.len()], inverse_mass, motion)
+}
+
 /// Turns a motion into the nearest one that neither enters nor leaves: every link is at its limit.
 pub(super) fn stay_on(links: &[Link], inverse_mass: &[f64], motion: &mut [DVec3]) -> Solved {
     nearest(links, &vec![true; links.len()], inverse_mass, motion)
+}
+
+/// The same, with the loads of a problem like it to start from.
+pub(super) fn stay_on_from(
+    loads: &mut Loads,
+    links: &[Link],
+    inverse_mass: &[f64],
+    motion: &mut [DVec3],
+) -> Solved {
+    nearest_from(loads, links, &vec![true; links.len()], inverse_mass, motion)
 }
 
 #[cfg(test)]

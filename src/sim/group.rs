@@ -13,13 +13,15 @@
 //! a plastic floor at once leaves them as if it had met them in turn. Where every e is 0, and where closing speeds
 //! have fallen to next to nothing, all contacts of the group are taken at once and plastically (Moreau).
 
+use std::collections::BTreeSet;
+
 use glam::DVec3;
 
 use super::body::BodyId;
 use super::constraint::enter_none;
 use super::geometry::{BodiesAt, contact_distance, gap_of, restitution_at, surface_of};
 use super::island::Island;
-use super::link::Link;
+use super::link::{Link, renumber};
 use super::model::Model;
 use super::nearest::nearest;
 use super::neighbours::near;
@@ -119,6 +121,7 @@ impl Group {
         let largest = self.members.iter().map(|member| member.before).fold(0.0, f64::max);
         let is_plastic = self.members.iter().all(|member| member.restitution == 0.0);
         let rounds = 100 + 20 * self.members.len();
+        let couplings = self.couplings();
         for round in 0..2 * rounds {
             let closing = self.still_closing();
             let Some(worst) = closing.iter().map(|k| self.closing(&self.members[*k])).reduce(f64::max) else {
@@ -130,7 +133,7 @@ impl Group {
             }
             let before = self.bodies.v.clone();
             if round < rounds {
-                self.split(&closing).iter().for_each(|coupled| self.reflect(coupled));
+                split(&closing, &couplings).iter().for_each(|coupled| self.reflect(coupled));
             } else {
                 // A light body between heavy ones would be thrown to and fro some √(M/m) times.
                 self.reflect(&(0..self.members.len()).collect::<Vec<_>>());
@@ -169,59 +172,50 @@ impl Group {
         if self.members.len() > 1 && member.before > 0.0 { own.min(parting / member.before) } else { own }
     }
 
-    /// Splits contacts into those that act on each other, directly or through others: that share a moving body
-    /// on which an impulse at one changes what closes at the other.
-    fn split(&self, contacts: &[usize]) -> Vec<Vec<usize>> {
-        let mut sets: Vec<Vec<usize>> = Vec::new();
-        for k in contacts {
-            let shares = |other: &usize| self.couples(*k, *other);
-            let (mut joined, rest): (Vec<_>, Vec<_>) =
-                sets.into_iter().partition(|set| set.iter().any(shares));
-            joined.push(vec![*k]);
-            let mut set = joined.concat();
-            set.sort_unstable();
-            sets = rest;
-            sets.push(set);
-        }
-        sets.sort_unstable();
-        sets
+    /// The other contacts that each one acts on.
+    fn couplings(&self) -> Vec<Vec<usize>> {
+        let count = self.members.len();
+        (0..count)
+            .map(|k| (0..count).filter(|other| *other != k && self.couples(k, *other)).collect())
+            .collect()
     }
 
-    /// Whether an impulse at one contact changes what closes at another, by more than rounding.
+    /// Whether two contacts share a moving body on which an impulse at one changes what closes at the other, by more
+    /// than rounding.
     fn couples(&self, k: usize, other: usize) -> bool {
-        let inverse_mass = &self.bodies.inverse_mass;
-        let response =
-            |a: usize, b: usize| self.members[a].link.response(&self.members[b].link, inverse_mass);
-        let both = response(k, other);
-        both * both > UNCOUPLED * UNCOUPLED * response(k, k) * response(other, other)
+        let links = [&self.members[k].link, &self.members[other].link];
+        let response = |a: &Link, b: &Link| a.response(b, &self.bodies.inverse_mass);
+        let both = if links[0].shares_body(links[1]) { response(links[0], links[1]) } else { 0.0 };
+        both * both > UNCOUPLED * UNCOUPLED * response(links[0], links[0]) * response(links[1], links[1])
     }
 
     /// Throws connected contacts back, all at once.
     fn reflect(&mut self, contacts: &[usize]) {
-        let links: Vec<Link> = contacts.iter().map(|k| self.members[*k].link).collect();
+        let mut links: Vec<Link> = contacts.iter().map(|k| self.members[*k].link).collect();
         let closing: Vec<f64> = links.iter().map(|link| link.entering(&self.bodies.v)).collect();
-        let mut plastic = self.bodies.v.clone();
-        let multipliers = enter_none(&links, &self.bodies.inverse_mass, &mut plastic).multipliers;
+        let bodies = renumber(&mut links);
+        let inverse_mass: Vec<f64> = bodies.iter().map(|body| self.bodies.inverse_mass[*body]).collect();
+        let mut plastic: Vec<DVec3> = bodies.iter().map(|body| self.bodies.v[*body]).collect();
+        let multipliers = enter_none(&links, &inverse_mass, &mut plastic).multipliers;
         let taken: Vec<f64> =
             multipliers.iter().zip(&closing).map(|(multiplier, closing)| multiplier * closing).collect();
         let restitution = self.shared_restitution(contacts, &taken);
         for (k, multiplier) in contacts.iter().zip(multipliers) {
             self.members[*k].impulse += (1.0 + restitution) * multiplier;
         }
-        self.throw(&plastic, restitution);
+        self.throw(bodies.into_iter().zip(plastic), restitution);
     }
 
     /// Goes (1 + e) times the way to the plastic velocities, which is orthogonal to them in the metric of masses, and
     /// books the loss ½(1 − e²) Σ m|v − v_plastic|². The impulses say the same, but where normals all but coincide
     /// they are large differences, and the velocities are not.
-    fn throw(&mut self, plastic: &[DVec3], restitution: f64) {
+    fn throw(&mut self, plastic: impl Iterator<Item = (usize, DVec3)>, restitution: f64) {
         let mut taken = 0.0;
-        for ((v, plastic), inverse_mass) in
-            self.bodies.v.iter_mut().zip(plastic).zip(&self.bodies.inverse_mass)
-        {
-            let way = *v - *plastic;
+        for (body, plastic) in plastic {
+            let v = &mut self.bodies.v[body];
+            let way = *v - plastic;
             if way != DVec3::ZERO {
-                taken += way.length_squared() / inverse_mass;
+                taken += way.length_squared() / self.bodies.inverse_mass[body];
                 *v -= (1.0 + restitution) * way;
             }
         }
@@ -259,8 +253,26 @@ impl Group {
         for (member, impulse) in self.members.iter_mut().zip(levelled.impulses) {
             member.impulse += impulse;
         }
-        self.throw(&levelled.velocities, 0.0);
+        self.throw(levelled.velocities.into_iter().enumerate(), 0.0);
     }
+}
+
+/// Splits some contacts into those that act on each other, directly or through others of them.
+fn split(contacts: &[usize], couplings: &[Vec<usize>]) -> Vec<Vec<usize>> {
+    let mut left: BTreeSet<usize> = contacts.iter().copied().collect();
+    let mut sets = Vec::new();
+    while let Some(first) = left.pop_first() {
+        let mut set = vec![first];
+        let mut next = 0;
+        while let Some(k) = set.get(next) {
+            let more: Vec<usize> = couplings[*k].iter().copied().filter(|other| left.remove(other)).collect();
+            set.extend(more);
+            next += 1;
+        }
+        set.sort_unstable();
+        sets.push(set);
+    }
+    sets
 }
 
 /// Velocities of the bodies of a group with the impulses at its contacts that lead to them.

@@ -5,17 +5,18 @@ use std::collections::BTreeSet;
 
 use glam::DVec3;
 
-use super::constraint::{enter_none, stay_on};
+use super::constraint::{enter_none, enter_none_from, stay_on, stay_on_from};
 use super::event::EventKind;
+use super::force::{ForceEntry, Law};
 use super::geometry::{BodiesAt, surface_of};
 use super::ledger::record_contact;
-use super::link::Link;
+use super::link::{Link, Solved};
+use super::loads::Loads;
 use super::model::Model;
 use super::motion::{CoupledStart, SegmentError, Step, check, coupled_step, place, step_hint};
-use super::nearest::Solved;
 use super::pair::Pair;
 use super::place::Place;
-use super::segment::Segment;
+use super::segment::{SERIES, Segment};
 use super::shape::Surface;
 use super::state::State;
 use super::tolerance::{PRESSURE_ROUNDING, PRESSURE_SAMPLES};
@@ -84,10 +85,10 @@ impl Island {
     }
 
     /// Which of the contacts are still pressed, in their order.
-    fn held(&self, model: &Model, time: f64) -> Vec<bool> {
+    fn held(&self, model: &Model, time: f64, loads: &mut Loads) -> Vec<bool> {
         let links = self.links(model);
         let mut motion = self.free(model, time);
-        let solved = enter_none(&links, &self.inverse_mass, &mut motion);
+        let solved = enter_none_from(loads, &links, &self.inverse_mass, &mut motion);
         pressed(&links, &solved, &self.inverse_mass, &motion)
     }
 }
@@ -147,7 +148,8 @@ fn free(
 /// Drops the contacts of an island that nothing presses together any more, and brings the others up to date
 /// (a body rolls from an edge onto the face).
 pub(super) fn drop_unpressed(model: &Model, state: &mut State, island: &Island, time: f64) {
-    for (held, (pair, _)) in island.held(model, time).into_iter().zip(&island.contacts) {
+    for (held, (pair, _)) in island.held(model, time, &mut Loads::default()).into_iter().zip(&island.contacts)
+    {
         if !held {
             part(model, state, *pair, time);
         }
@@ -176,8 +178,8 @@ pub(super) fn part(model: &Model, state: &mut State, pair: Pair, time: f64) {
 }
 
 /// Lets an island go on: books the old segments of its bodies and begins new ones. Bodies that rest or
-/// slide on flat faces, without moving against each other, go on along parabolas. Others, and all in fields,
-/// are integrated together.
+/// slide on flat faces, without moving against each other, go on along parabolas, and what is still stays. Others, and
+/// all that move in fields, are integrated together.
 pub(super) fn begin_island(
     model: &Model,
     state: &mut State,
@@ -193,18 +195,24 @@ pub(super) fn begin_island(
     let links = island.links(model);
     let mut accelerations = island.free(model, time);
     let solved = enter_none(&links, &island.inverse_mass, &mut accelerations);
-    let steps: Vec<Step> = if is_steady(model, island, &links, &accelerations) {
+    let goes_on = is_still(model, island, &accelerations) || is_steady(model, island, &links, &accelerations);
+    let steps: Vec<Step> = if goes_on {
         let rows = island.x.iter().zip(&island.v).zip(&accelerations);
         rows.map(|((x, v), a)| (Segment::ballistic(time, *x, *v, *a), None)).collect()
     } else {
         let hint = step_hint(state, island.ids[0], time);
         let Island { ids, x, v, contacts, inverse_mass } = island;
         let start = CoupledStart { model, ids, time, x, v, hint };
-        let step = coupled_step(&start, &mut state.counters.force_evaluations, |time, x, v| {
+        // Of each node, once it was looked at; at first those of the node before.
+        let mut loads: [Option<Loads>; SERIES + 1] = Default::default();
+        let mut last = Loads::from(&solved.multipliers);
+        let step = coupled_step(&start, &mut state.counters.force_evaluations, |node, time, x, v| {
             let mut motion = free(model, ids, inverse_mass, time, (x, v));
             let links = links_of(model, ids, contacts, x, v);
             let size = largest(&motion, &links);
-            stay_on(&links, inverse_mass, &mut motion);
+            let loads = loads[node].get_or_insert_with(|| last.clone());
+            stay_on_from(loads, &links, inverse_mass, &mut motion);
+            last.clone_from(loads);
             (motion, size)
         });
         step.map_err(|error| (ids[0], error))?
@@ -230,6 +238,13 @@ fn book(state: &mut State, island: &Island, before: &[DVec3]) {
     }
 }
 
+/// Whether an island at rest stays so: nothing about its forces depends on time.
+fn is_still(model: &Model, island: &Island, accelerations: &[DVec3]) -> bool {
+    let depends_on_time = |force: &ForceEntry| matches!(force.law, Law::Custom(_));
+    island.v.iter().chain(accelerations).all(|way| *way == DVec3::ZERO)
+        && !model.forces.iter().any(depends_on_time)
+}
+
 /// Whether nothing about the contacts and forces of an island will change along parabolas.
 fn is_steady(model: &Model, island: &Island, links: &[Link], accelerations: &[DVec3]) -> bool {
     let still = |link: &Link, (_, surface): &(Pair, Surface)| match link.b {
@@ -246,9 +261,10 @@ pub(super) fn first_parting(model: &Model, state: &State, ids: &[u32]) -> Option
     if segment.step == 0.0 {
         return None;
     }
-    let lost = |time: f64| -> Vec<Pair> {
+    let mut loads = Loads::default();
+    let mut lost = |time: f64| -> Vec<Pair> {
         let island = Island::at(model, state, ids.to_vec(), time);
-        let held = island.held(model, time);
+        let held = island.held(model, time, &mut loads);
         held.into_iter().zip(island.contacts).filter(|(held, _)| !held).map(|(_, (pair, _))| pair).collect()
     };
     let mut low = segment.start;
@@ -264,7 +280,7 @@ pub(super) fn first_parting(model: &Model, state: &State, ids: &[u32]) -> Option
 }
 
 /// The earliest representable time in low..=high at which `holds` no longer holds.
-fn bisect(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
+fn bisect(mut low: f64, mut high: f64, mut holds: impl FnMut(f64) -> bool) -> f64 {
     loop {
         let middle = 0.5 * (low + high);
         if middle <= low || middle >= high {

@@ -15,7 +15,28 @@ pub(super) struct Link {
     pub limit: f64,
 }
 
+/// What is found besides the motion that links allow.
+#[derive(Clone, Debug)]
+pub(super) struct Solved {
+    /// Of the links, ≥ 0 but for those that are kept from leaving: impulses for velocities, forces for accelerations.
+    pub multipliers: Vec<f64>,
+    /// Length of all that the motion of each body is the sum of: what is left is known to some roundings of it.
+    pub sizes: Vec<f64>,
+}
+
+impl Solved {
+    /// Length of all that decides how fast a link enters.
+    pub fn size(&self, link: &Link) -> f64 {
+        link.size_of(&self.sizes)
+    }
+}
+
 impl Link {
+    /// Length of all that decides how fast it enters, of that of its bodies.
+    pub fn size_of(&self, sizes: &[f64]) -> f64 {
+        sizes[self.a] + self.b.map_or(0.0, |b| sizes[b]) + self.limit
+    }
+
     /// How fast a motion enters the other body, in the units of the motion; negative when it leaves.
     pub fn entering(&self, motion: &[DVec3]) -> f64 {
         let other = self.b.map_or(DVec3::ZERO, |b| motion[b]);
@@ -49,4 +70,16 @@ impl Link {
         }
         sum * along
     }
+}
+
+/// Gives the bodies of some links numbers of their own, in their order; which they were.
+pub(super) fn renumber(links: &mut [Link]) -> Vec<usize> {
+    let mut bodies: Vec<usize> = links.iter().flat_map(|link| [Some(link.a), link.b]).flatten().collect();
+    bodies.sort_unstable();
+    bodies.dedup();
+    let number = |body: usize| bodies.partition_point(|other| *other < body);
+    for link in links {
+        (link.a, link.b) = (number(link.a), link.b.map(number));
+    }
+    bodies
 }

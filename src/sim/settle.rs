@@ -31,7 +31,7 @@ pub(super) fn settle(model: &Model, group: &mut Group) -> Vec<Settling> {
 
     drop_bouncing(model, group, &mut candidates, &free, &links);
 
-    drop_parting(group, &mut candidates, &free, &links);
+    drop_parting(model, group, &mut candidates, &free, &links);
 
     drop_unpressed(group, &mut candidates, &free, &links);
 
@@ -159,10 +159,25 @@ fn longest_flight(candidates: &[Candidate]) -> f64 {
     candidates.iter().map(|candidate| candidate.flights.max(candidate.flight)).fold(0.0, f64::max)
 }
 
+/// Time in which bodies fall by the rounding of their positions, s.
+fn rounding_of_flights(model: &Model, group: &Group, free: &[DVec3]) -> f64 {
+    let strongest = free.iter().map(|a| a.length()).fold(0.0, f64::max);
+    let height = group.members.iter().map(|member| slack(model, group, member)).fold(0.0, f64::max);
+    if strongest > 0.0 { (2.0 * height / strongest).sqrt() } else { 0.0 }
+}
+
 /// Drops contacts that part all the same once the bodies have come back: one step of Moreau's over the longest
-/// of the flights left out tells. A ball that a step in the floor lifts leaves the floor, however slowly.
-fn drop_parting(group: &Group, candidates: &mut Vec<Candidate>, free: &[DVec3], links: &[Link]) {
-    let span = 2.0 * longest_flight(candidates);
+/// of the flights left out tells, or over the time in which bodies fall by the rounding of their positions: how high
+/// they are above that can't be told. A ball that a step in the floor lifts leaves the floor, however slowly.
+fn drop_parting(
+    model: &Model,
+    group: &Group,
+    candidates: &mut Vec<Candidate>,
+    free: &[DVec3],
+    links: &[Link],
+) {
+    let flights = 2.0 * longest_flight(candidates);
+    let span = if flights > 0.0 { flights.max(rounding_of_flights(model, group, free)) } else { 0.0 };
     let mut motion = group.bodies.v.clone();
     for (v, a) in motion.iter_mut().zip(free) {
         *v += span * *a;

@@ -134,3 +134,35 @@ pub(super) const ONE_DIRECTION: f64 = 1e-9;
 /// then have one answer, that of the least forces. It is off by the square of this, which is made good afterwards,
 /// and by roundings over that square.
 pub(super) const SHARING: f64 = 1e-4;
+
+// The same, by loads.
+
+/// Up to so many links the search along an orthogonal basis is as quick as that by loads, and keeps more digits where
+/// masses differ. More cost time.
+pub(super) const FEW_LINKS: usize = 6;
+
+/// Part of the diagonal by which the matrix of the contacts is made definite. Each step leaves this over what is left
+/// of a normal beside others, squared: smaller, rounding decides how bounds that depend on each other share their load;
+/// larger, normals that differ little take many steps.
+pub(super) const PROXIMAL: f64 = 1e-10;
+
+/// Loads may exceed the motion that they come from so many times: as many roundings the motion is then off by. Less,
+/// and steep wedges are searched for in vain first; more, and a heavy ball sinks through a light one.
+pub(super) const LOADED: f64 = 1e3;
+
+/// A motion found from loads is a projection to this part of its energy, or it is searched for: smaller searches in vain
+/// in every jam, larger makes energy of rounding.
+pub(super) const PROJECTED: f64 = 1e-13;
+
+/// What a step with the factor of a problem nearby may leave of what was overstepped, before that of the problem itself
+/// is made, which costs some eight steps. Larger takes more steps, smaller makes factors in vain.
+pub(super) const STALE: f64 = 0.02;
+
+/// Steps in all, and exchanges of the set, after which loads are given up. Most problems need three of each; fewer
+/// lead to a search in vain, more cost time where there is no answer.
+pub(super) const MOST_STEPS: u32 = 40;
+pub(super) const MOST_EXCHANGES: u32 = 12;
+
+/// The response of a link beside others is told from the matrix of the contacts where more than this part of it is left:
+/// it is off by roundings over this. Smaller loses digits, larger costs time.
+pub(super) const HELD_ALONE: f64 = 1e-2;

@@ -33,17 +33,18 @@ pub(in crate::sim) struct CoupledStart<'a> {
     pub hint: f64,
 }
 
-/// One accepted step of all bodies, of the same length.
+/// One accepted step of all bodies, of the same length. `accelerations` are asked for at nodes, by number, time,
+/// positions and velocities: again and again at each, where they hardly change.
 pub(in crate::sim) fn coupled_step(
     start: &CoupledStart<'_>,
     evaluations: &mut u64,
-    mut accelerations: impl FnMut(f64, &[DVec3], &[DVec3]) -> Field,
+    mut accelerations: impl FnMut(usize, f64, &[DVec3], &[DVec3]) -> Field,
 ) -> Result<Vec<Step>, SegmentError> {
-    let mut field = |time: f64, x: &[DVec3], v: &[DVec3]| {
+    let mut field = |node: usize, time: f64, x: &[DVec3], v: &[DVec3]| {
         *evaluations += x.len() as u64;
-        accelerations(time, x, v)
+        accelerations(node, time, x, v)
     };
-    let (a0, size) = field(start.time, start.x, start.v);
+    let (a0, size) = field(0, start.time, start.x, start.v);
     if !(are_sound(a0.iter().chain(start.x).chain(start.v)) && size.is_finite()) {
         return Err(SegmentError::NotFinite);
     }
@@ -75,7 +76,7 @@ impl CoupledStart<'_> {
         &self,
         a0: &[DVec3],
         size: f64,
-        field: &mut impl FnMut(f64, &[DVec3], &[DVec3]) -> Field,
+        field: &mut impl FnMut(usize, f64, &[DVec3], &[DVec3]) -> Field,
     ) -> f64 {
         if self.hint > 0.0 {
             return self.hint;
@@ -90,7 +91,7 @@ impl CoupledStart<'_> {
             let ways = self.v.iter().zip(a0).map(|(v, a)| probe * (*v + (0.5 * probe) * *a));
             let x: Vec<DVec3> = self.x.iter().zip(ways).map(|(x, way)| *x + way).collect();
             let v: Vec<DVec3> = self.v.iter().zip(a0).map(|(v, a)| *v + probe * *a).collect();
-            let (ahead, size) = field(self.time + probe, &x, &v);
+            let (ahead, size) = field(0, self.time + probe, &x, &v);
             let changes = ahead.iter().zip(a0).map(|(ahead, a0)| (*ahead - *a0).length());
             (size, changes.fold(0.0, f64::max))
         })
@@ -120,7 +121,7 @@ fn correct(
     a0: &[DVec3],
     step: f64,
     tolerance: f64,
-    field: &mut impl FnMut(f64, &[DVec3], &[DVec3]) -> Field,
+    field: &mut impl FnMut(usize, f64, &[DVec3], &[DVec3]) -> Field,
 ) -> Attempt<Vec<Series>> {
     let mut series = vec![Series::default(); start.x.len()];
     let mut differences: Vec<Differences> = series.iter().map(Differences::of).collect();
@@ -137,7 +138,7 @@ fn correct(
                 x[body] = start.x[body] + tau * (start.v[body] + tau * (0.5 * a0 + b.position_term(*node)));
                 v[body] = start.v[body] + tau * (a0 + b.velocity_term(*node));
             }
-            let (a, applied) = field(start.time + tau, &x, &v);
+            let (a, applied) = field(n, start.time + tau, &x, &v);
             if !(are_sound(a.iter()) && applied.is_finite()) {
                 return Attempt { series, converged: false, error: f64::INFINITY };
             }
