@@ -83,7 +83,11 @@ fn gases() -> Vec<Case> {
 
 /// Dropped into a box, until they lie.
 fn piles() -> Vec<Case> {
-    let rows = [("pile 1000", 1000, &RATES[..2], 1..3), ("pile 5000", 5000, &RATES[..1], 1..2)];
+    let rows = [
+        ("pile 27", 27, &RATES[..2], 0..3),
+        ("pile 1000", 1000, &RATES[..2], 1..3),
+        ("pile 5000", 5000, &RATES[..1], 1..2),
+    ];
     let case = |(name, count, rates, settings)| Case {
         name,
         scene: pile(count, 0.2),

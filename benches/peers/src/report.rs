@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::cases::Case;
 use crate::engines::Engine;
-use crate::run::Point;
+use crate::run::{Point, Watch};
 
 /// Rapier's steps per second at which the promise is made.
 const PROMISED_AT: f64 = 240.0;
@@ -59,6 +59,11 @@ pub fn table(case: &Case, points: &[Point]) {
             },
         );
     }
+}
+
+/// What another program's states came to.
+pub fn recorded(case: &Case, watch: &Watch<'_>) {
+    println!("{}: energy {:.1e}, overlap/r {:.1e}", case.name, watch.energy_error(case), watch.overlap);
 }
 
 fn short(error: Option<f64>) -> String {

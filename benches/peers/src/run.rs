@@ -115,30 +115,43 @@ fn errors(case: &Case, engine: Engine, cost: f64) -> Point {
         impacts: None,
     };
     let Some(mut world) = world(case, engine, expected_impacts.is_some()) else { return point };
-    let mut watch = Watch::new(case, &*world);
-    let look_every = if case.reference == Reference::Pile { LOOK_AT_PILE } else { LOOK };
-    for look in 1..=(case.until / look_every).round() as u32 {
-        let time = f64::from(look) * look_every;
-        let goes_on = world.advance(time);
-        watch.look(&*world);
-        if !goes_on {
-            break;
-        }
+    let watch = watched_with(case, &mut *world, |time, balls| {
         if let Some(expected) = case.reference.at(&case.scene, time) {
-            let worst = worst(&watch.balls, &expected, |ball| ball.position);
+            let worst = worst(balls, &expected, |ball| ball.position);
             point.position_error = Some(larger(point.position_error.unwrap_or(0.0), worst));
-            point.velocity_error = Some(self::worst(&watch.balls, &expected, |ball| ball.velocity));
+            point.velocity_error = Some(self::worst(balls, &expected, |ball| ball.velocity));
         }
-    }
+    });
     point.reached = world.time();
-    point.energy_error = if case.reference == Reference::Pile { watch.climb } else { watch.drift() };
+    point.energy_error = watch.energy_error(case);
     point.overlap = watch.overlap;
     point.impacts = world.impacts().zip(expected_impacts);
     point
 }
 
+/// Runs a world to the end of a case and looks at it.
+pub fn watched<'a>(case: &'a Case, world: &mut dyn World) -> Watch<'a> {
+    watched_with(case, world, |_, _| {})
+}
+
+/// As [`watched`]; `see` gets the time and the balls at each look.
+fn watched_with<'a>(case: &'a Case, world: &mut dyn World, mut see: impl FnMut(f64, &[Ball])) -> Watch<'a> {
+    let mut watch = Watch::new(case, world);
+    let look_every = if case.reference == Reference::Pile { LOOK_AT_PILE } else { LOOK };
+    for look in 1..=(case.until / look_every).round() as u32 {
+        let time = f64::from(look) * look_every;
+        let goes_on = world.advance(time);
+        watch.look(world);
+        if !goes_on {
+            break;
+        }
+        see(time, &watch.balls);
+    }
+    watch
+}
+
 /// Looks at the overlaps and the energy of a world, the same for all engines.
-struct Watch<'a> {
+pub struct Watch<'a> {
     scene: &'a Scene,
     monitor: OverlapMonitor,
     balls: Vec<Ball>,
@@ -150,7 +163,8 @@ struct Watch<'a> {
     largest_kinetic: f64,
     worst_drift: f64,
     climb: f64,
-    overlap: f64,
+    /// Over the smallest radius.
+    pub overlap: f64,
 }
 
 impl<'a> Watch<'a> {
@@ -188,8 +202,9 @@ impl<'a> Watch<'a> {
         self.overlap = larger(self.overlap, self.monitor.worst(&places) / self.radius);
     }
 
-    fn drift(&self) -> f64 {
-        self.worst_drift / self.largest_kinetic
+    /// See [`Point::energy_error`].
+    pub fn energy_error(&self, case: &Case) -> f64 {
+        if case.reference == Reference::Pile { self.climb } else { self.worst_drift / self.largest_kinetic }
     }
 }
 

@@ -34,14 +34,14 @@ const GAS: Case = Case {
 pub(super) const THOUSAND_THIN: Case = Case {
     id: "gas-1000-thin",
     title: "Gas of 1000, packing 0.1, 10 s",
-    peers: "energy −3 % in 10 s (rapier, Δt 1/60), −1.4 % (1/240); 2e-16 (DynamO)",
+    peers: "energy −10 % in 10 s (rapier, Δt 1/60), −3.2 % (1/240); 2e-16 (DynamO)",
     ..GAS
 };
 
 pub(super) const THOUSAND_DENSE: Case = Case {
     id: "gas-1000-dense",
     title: "Gas of 1000, packing 0.3, 10 s",
-    peers: "energy −50 % in 10 s (rapier, Δt 1/60), −24 % (1/240); 2e-16 (DynamO)",
+    peers: "energy −59 % in 10 s (rapier, Δt 1/60), −31 % (1/240); 2e-16 (DynamO)",
     source: Source::Built(|| gas(10, 0.3)),
     budget: 1_000_000,
     long: true,
