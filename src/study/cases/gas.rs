@@ -51,7 +51,7 @@ pub(super) const THOUSAND_DENSE: Case = Case {
 pub(super) const TEN_THOUSAND_THIN: Case = Case {
     id: "gas-10000-thin",
     title: "Gas of 10 648, packing 0.1, 10 s",
-    peers: "energy −2.6 % in 10 s (rapier, Δt 1/60)",
+    peers: "energy −6.9 % in 10 s (rapier, Δt 1/60)",
     source: Source::Built(|| gas(22, 0.1)),
     budget: 2_000_000,
     long: true,
@@ -61,7 +61,7 @@ pub(super) const TEN_THOUSAND_THIN: Case = Case {
 pub(super) const TEN_THOUSAND_DENSE: Case = Case {
     id: "gas-10000-dense",
     title: "Gas of 10 648, packing 0.3, 10 s",
-    peers: "energy −42 % in 10 s (rapier, Δt 1/60)",
+    peers: "energy −51 % in 10 s (rapier, Δt 1/60)",
     source: Source::Built(|| gas(22, 0.3)),
     budget: 10_000_000,
     long: true,
