@@ -1,7 +1,7 @@
-//! Scenes that are made, not read: gases and static spheres in any number.
+//! Scenes that are made, not read: gases, piles and static spheres in any number.
 
 use glam::{DVec3, dvec3};
-use polyscene::scene::{Body, Map, Motion, NodeKey, Scene, Shape, SimParams};
+use polyscene::scene::{Body, Force, ForceKind, Map, Motion, NodeKey, Scene, Shape, SimParams};
 
 /// N equal spheres of 1 kg at a packing fraction in a box of 10 m, on a lattice, with velocities of 1 m/s in
 /// random directions.
@@ -19,6 +19,46 @@ pub fn gas(count: u32, packing: f64) -> Scene {
         bodies.push(body(100 + i64::from(index), position, Motion::Dynamic { mass: 1.0, velocity }, radius));
     }
     scene(size, side, bodies)
+}
+
+/// N equal spheres of r = 5 cm and 0.5 kg dropped into a closed box that they fill to about their number's cube root
+/// of layers; `e` is the restitution of a pair.
+#[allow(dead_code, reason = "not every program that shares this file asks for it")]
+pub fn pile(count: u32, e: f64) -> Scene {
+    const RADIUS: f64 = 0.05;
+    const PITCH: f64 = 2.2 * RADIUS;
+    let side = (1..).find(|side: &u32| side * side * side >= count).unwrap_or(1);
+    let width = f64::from(side) * PITCH;
+    // Twice as high as what is dropped.
+    let size = 2.0 * width;
+    let mut bodies = walls(DVec3::ZERO, size);
+    for (wall, x) in bodies.iter_mut().zip([0.0, width]) {
+        wall.position.x = x;
+    }
+    for (wall, z) in bodies.iter_mut().skip(4).zip([0.0, width]) {
+        wall.position.z = z;
+    }
+    let mut random = Random(11);
+    for index in 0..count {
+        let cell = [index % side, index / (side * side), index / side % side].map(|i| f64::from(i) + 0.5);
+        let shift = DVec3::from_array(std::array::from_fn(|_| (2.0 * random.unit() - 1.0) * 0.09 * RADIUS));
+        let position = DVec3::from_array(cell) * PITCH + shift;
+        let motion = Motion::Dynamic { mass: 0.5, velocity: DVec3::ZERO };
+        bodies.push(body(100 + i64::from(index), position, motion, RADIUS));
+    }
+    for body in &mut bodies {
+        body.bounce = e.sqrt();
+    }
+    let gravity = Force {
+        key: NodeKey(1_000_000),
+        id: 1,
+        label: "1".into(),
+        name: None,
+        hidden: false,
+        locked: false,
+        kind: ForceKind::GravityPlane { position: DVec3::ZERO, acceleration: dvec3(0.0, -9.81, 0.0) },
+    };
+    Scene { forces: vec![gravity], ..scene(size, 2 * side, bodies) }
 }
 
 /// Static spheres of r = 0.3 m on a 1 m lattice, one to a tile, in a box with walls; ten balls near its

@@ -1,14 +1,14 @@
 //! `polyscene hard-cases`: measures the figures of the hard cases and says which are within their limits.
 
 use std::io::IsTerminal as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
+use super::marks::Marked;
 use super::{CliError, output};
-use crate::scene::{shown_path, write_atomically};
 use crate::study::cases::{CASES, Case, CaseResult as Outcome, Figure, STEPS, markdown, measure, text};
 
 /// Measure the hard cases: scenes with known outcomes at which methods fail
@@ -39,13 +39,13 @@ pub struct HardCasesArgs {
 }
 
 /// The marks between which the table stands.
-const BEGIN: &str = "<!-- hard cases: begin -->\n";
+const BEGIN: &str = "<!-- hard cases: begin -->";
 const END: &str = "<!-- hard cases: end -->";
 
 pub(super) fn hard_cases(args: &HardCasesArgs) -> Result<(), CliError> {
     let chosen = chosen(args)?;
     // Found out before minutes of work rather than after.
-    let frame = args.markdown.as_deref().map(frame).transpose()?;
+    let marked = args.markdown.as_deref().map(|path| Marked::read(path, BEGIN, END)).transpose()?;
     let bar = bar(chosen.len() * STEPS.len());
     let mut measured = Vec::new();
     for case in chosen {
@@ -66,9 +66,8 @@ pub(super) fn hard_cases(args: &HardCasesArgs) -> Result<(), CliError> {
         line.push(b'\n');
         output::print(&line)?;
     }
-    if let (Some(path), Some((before, after))) = (&args.markdown, frame) {
-        let whole = format!("{before}{}{after}", markdown(&measured));
-        write_atomically(path, whole.as_bytes()).map_err(|error| CliError::unwritable(path, &error))?;
+    if let Some(marked) = &marked {
+        marked.write(&markdown(&measured))?;
     }
     let missed = |(case, outcomes): &(&Case, Vec<Outcome>)| {
         figures(case, outcomes).iter().filter(|figure| !figure.held).count()
@@ -97,21 +96,6 @@ fn chosen(args: &HardCasesArgs) -> Result<Vec<&'static Case>, CliError> {
 
 fn is_called(case: &Case, name: &str) -> bool {
     case.id == name || case.number.to_string() == name
-}
-
-/// What stands before and after the table in a Markdown file.
-fn frame(path: &Path) -> Result<(String, String), CliError> {
-    let whole = std::fs::read_to_string(path).map_err(|error| CliError::unwritable(path, &error))?;
-    let begin = whole.find(BEGIN).map(|at| at + BEGIN.len());
-    let end = whole.find(END);
-    match (begin, end) {
-        (Some(begin), Some(end)) if begin <= end => Ok((whole[..begin].to_owned(), whole[end..].to_owned())),
-        _ => Err(CliError::Usage(format!(
-            "--markdown: {} lacks the lines `{}` and `{END}` between which the table belongs",
-            shown_path(path),
-            BEGIN.trim_end()
-        ))),
-    }
 }
 
 fn bar(length: usize) -> ProgressBar {

@@ -3,10 +3,12 @@
 mod check;
 mod edit;
 mod error;
+mod everyday;
 mod hard_cases;
 mod input;
 mod interrupt;
 mod limits;
+mod marks;
 mod method;
 mod number;
 mod output;
@@ -28,6 +30,7 @@ use crate::scene::escaped;
 pub use check::CheckArgs;
 pub use edit::EditArgs;
 pub use error::{CliError, say};
+pub use everyday::EverydayArgs;
 pub use hard_cases::HardCasesArgs;
 pub use input::{Examined, examine};
 #[cfg(feature = "render")]
@@ -62,6 +65,7 @@ struct Cli {
 pub enum Verb {
     Run(RunArgs),
     Check(CheckArgs),
+    Everyday(EverydayArgs),
     HardCases(HardCasesArgs),
     #[cfg(feature = "render")]
     Render(RenderArgs),
@@ -74,6 +78,7 @@ impl Verb {
         match self {
             Self::Run(args) => run::run(args),
             Self::Check(args) => check::check(args),
+            Self::Everyday(args) => everyday::everyday(args),
             Self::HardCases(args) => hard_cases::hard_cases(args),
             #[cfg(feature = "render")]
             Self::Render(args) => render::render(args),

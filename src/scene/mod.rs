@@ -1,5 +1,6 @@
 //! The document: what a scene file says, how it is read, edited and written. Knows nothing of time or pixels.
 
+mod compose;
 mod declaration;
 mod diagnostic;
 mod document;

@@ -3,6 +3,8 @@
 // The hard cases with their known answers.
 pub mod cases;
 pub mod closed_form;
+// Everyday scenes in families, and what is demanded of all of them.
+pub mod everyday;
 
 // What a study is asked, and what it answers.
 mod axes;

@@ -12,17 +12,25 @@ const TILES: [[u32; 3]; 3] = [[1; 3], [10; 3], [37; 3]];
 /// How long a scene is looked at, s: so long that it shows its difficulty, and the test stays short.
 /// Those not named get 4 s.
 const SPANS: &[(&str, f64)] = &[
+    ("bin", 0.2),
     ("bullet", 0.02),
     ("bullets", 0.02),
     ("counting-pi-3", 5.0),
     ("counting-pi-4", 4.045),
+    ("galton", 0.5),
     ("gas-1000", 0.2),
     ("grazing", 1.0),
+    ("heap-in-space", 0.3),
+    ("hopper", 0.6),
+    ("masses", 0.2),
     ("orbit", 12.0),
     ("rest", 10.0),
     ("cradle", 6.0),
     ("pyramid-4-bouncy", 2.0),
     ("pyramid-6", 0.15),
+    ("pyramid-hit", 0.1),
+    ("pour-1000", 0.05),
+    ("pour-5000", 0.01),
 ];
 
 fn span(id: &str) -> f64 {

@@ -27,6 +27,10 @@ mod editor_recovery;
 mod editor_support;
 // Undo: one point per gesture, the document alone.
 mod editor_undo;
+// Everyday scenes: closed, without overlap, and a sample that meets every demand.
+mod everyday;
+// The verb `everyday` through the real program.
+mod everyday_verb;
 // The Accuracy panel: a study on its thread, its figures and files, and that it rests.
 mod gui_accuracy;
 // The error badge: what it says, and that a click goes to the event it names.

@@ -116,8 +116,9 @@ fn scenes() -> Vec<String> {
         let path = crate::common::load::scene_path(folder);
         for entry in std::fs::read_dir(path).unwrap() {
             let name = entry.unwrap().file_name().into_string().unwrap();
-            // Large gases: the small one shows the same.
-            if name.ends_with(".xml") && !name.starts_with("gas-1000") {
+            // Large gases and heaps: the small ones show the same.
+            let is_large = ["gas-1000", "pour-"].iter().any(|large| name.starts_with(large));
+            if name.ends_with(".xml") && !is_large {
                 names.push(if folder.is_empty() { name } else { format!("{folder}/{name}") });
             }
         }

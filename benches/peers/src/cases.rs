@@ -1,12 +1,14 @@
-//! The scenes that are measured: a row each.
+//! The scenes that are measured, and with which engines: a row each.
 
+use std::ops::Range;
 use std::path::Path;
 
 use polyscene::scene::{Document, Scene};
 
-use crate::peer::RATES;
+use crate::engines::Engine;
+use crate::peer::{Precision, RATES, SETTINGS, Walls};
 use crate::reference::Reference;
-use crate::scenes::gas;
+use crate::scenes::{gas, pile};
 
 pub struct Case {
     pub name: &'static str,
@@ -16,10 +18,12 @@ pub struct Case {
     pub reference: Reference,
     /// How many times less time than rapier3d at 1/240 s PolyScene must need; `None` where nothing is promised.
     pub promised: Option<f64>,
-    /// Rapier's steps per second.
-    pub rates: &'static [f64],
+    /// Besides PolyScene.
+    pub peers: Vec<Engine>,
     /// Timings, of which the median counts.
     pub repeats: usize,
+    /// Processor time after which PolyScene gives up, s.
+    pub patience: f64,
 }
 
 /// A scene file under `scenes/` and what is asked of it.
@@ -35,30 +39,86 @@ const FILES: [Row; 6] = [
     Row("counting pi", "counting-pi.xml", 8.0, Reference::Pi),
 ];
 
+/// Longer than any run takes that gets anywhere, s.
+const PATIENCE: f64 = 60.0;
+
 pub fn all() -> Result<Vec<Case>, String> {
+    let mut cases = files()?;
+    cases.extend(gases());
+    cases.extend(piles());
+    Ok(cases)
+}
+
+fn files() -> Result<Vec<Case>, String> {
     let mut cases = Vec::new();
     for Row(name, file, until, reference) in FILES {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(file);
         let document = Document::open(&path);
         let scene = document.scene().cloned().ok_or_else(|| format!("{} does not load", path.display()))?;
-        cases.push(Case { name, scene, until, reference, promised: Some(10.0), rates: &RATES, repeats: 7 });
-    }
-    let gases = [
-        ("gas 1000, 0.1", 1000, 0.1, 2.0),
-        ("gas 1000, 0.3", 1000, 0.3, 1.0),
-        ("gas 10000, 0.1", 10_000, 0.1, 0.5),
-        ("gas 10000, 0.3", 10_000, 0.3, 0.25),
-    ];
-    for (name, count, packing, until) in gases {
-        cases.push(Case {
-            name,
-            scene: gas(count, packing),
-            until,
-            reference: Reference::None,
-            promised: None,
-            rates: &RATES[..2],
-            repeats: 3,
-        });
+        let mut peers = boxes(&RATES, 0..SETTINGS.len());
+        peers.extend(half_spaces(&RATES, 0..SETTINGS.len()));
+        let promised = Some(10.0);
+        cases.push(Case { name, scene, until, reference, promised, peers, repeats: 7, patience: PATIENCE });
     }
     Ok(cases)
+}
+
+fn gases() -> Vec<Case> {
+    let rows = [
+        ("gas 1000, 0.1", 1000, 0.1),
+        ("gas 1000, 0.3", 1000, 0.3),
+        ("gas 10000, 0.1", 10_000, 0.1),
+        ("gas 10000, 0.3", 10_000, 0.3),
+    ];
+    let case = |(name, count, packing)| {
+        let mut peers = boxes(&RATES[..2], 0..SETTINGS.len());
+        // What half-spaces cost, once.
+        peers.extend(half_spaces(&RATES[..1], 1..2));
+        let scene = gas(count, packing);
+        let reference = Reference::None;
+        Case { name, scene, until: 2.0, reference, promised: None, peers, repeats: 3, patience: PATIENCE }
+    };
+    rows.into_iter().map(case).collect()
+}
+
+/// Dropped into a box, until they lie.
+fn piles() -> Vec<Case> {
+    let rows = [
+        ("pile 27", 27, &RATES[..2], 0..3),
+        ("pile 1000", 1000, &RATES[..2], 1..3),
+        ("pile 5000", 5000, &RATES[..1], 1..2),
+    ];
+    let case = |(name, count, rates, settings)| Case {
+        name,
+        scene: pile(count, 0.2),
+        until: 4.0,
+        reference: Reference::Pile,
+        promised: None,
+        peers: boxes(rates, settings),
+        repeats: 1,
+        patience: 20.0,
+    };
+    rows.into_iter().map(case).collect()
+}
+
+/// With plates as boxes, in both precisions.
+fn boxes(rates: &[f64], settings: Range<usize>) -> Vec<Engine> {
+    let mut engines = combined(rates, settings.clone(), Walls::Boxes, Precision::Single);
+    engines.extend(combined(rates, settings, Walls::Boxes, Precision::Double));
+    engines
+}
+
+/// With plates as half-spaces.
+fn half_spaces(rates: &[f64], settings: Range<usize>) -> Vec<Engine> {
+    combined(rates, settings, Walls::HalfSpaces, Precision::Single)
+}
+
+fn combined(rates: &[f64], settings: Range<usize>, walls: Walls, precision: Precision) -> Vec<Engine> {
+    let mut engines = Vec::new();
+    for rate in rates {
+        for settings in &SETTINGS[settings.clone()] {
+            engines.push(Engine::Rapier { dt: 1.0 / rate, settings, walls, precision });
+        }
+    }
+    engines
 }

@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::peer::{Precision, Settings, Walls};
+
 /// One moving sphere. Bodies come in the order of their UserIDs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ball {
@@ -13,8 +15,11 @@ pub struct Ball {
 
 /// A scene that runs in one engine.
 pub trait World {
-    /// Goes on to model time `time`, s.
-    fn advance(&mut self, time: f64);
+    /// Goes on to model time `time`, s; false when it has given up before.
+    fn advance(&mut self, time: f64) -> bool;
+
+    /// Model time, s.
+    fn time(&self) -> f64;
 
     fn read(&self, into: &mut Vec<Ball>);
 
@@ -26,21 +31,25 @@ pub trait World {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Engine {
     Polyscene,
-    Rapier { dt: f64, settings: &'static crate::peer::Settings },
+    Rapier { dt: f64, settings: &'static Settings, walls: Walls, precision: Precision },
 }
 
 impl Engine {
     pub fn name(self) -> &'static str {
         match self {
             Self::Polyscene => "polyscene",
-            Self::Rapier { .. } => "rapier3d",
+            Self::Rapier { precision: Precision::Single, .. } => "rapier3d",
+            Self::Rapier { precision: Precision::Double, .. } => "rapier3d-f64",
         }
     }
 
-    pub fn settings(self) -> &'static str {
+    pub fn settings(self) -> String {
         match self {
-            Self::Polyscene => "exact",
-            Self::Rapier { settings, .. } => settings.name,
+            Self::Polyscene => "exact".into(),
+            Self::Rapier { settings, walls: Walls::Boxes, .. } => settings.name.into(),
+            Self::Rapier { settings, walls: Walls::HalfSpaces, .. } => {
+                format!("{}, half-spaces", settings.name)
+            }
         }
     }
 

@@ -19,8 +19,10 @@ pub enum Reference {
     Kepler,
     /// Two balls on a line along z and a wall (Galperin 2003).
     Pi,
-    /// Chaotic: none.
+    /// Chaotic, and loses nothing: none.
     None,
+    /// Balls that come to rest: no closed form, but they must not overlap or gain energy.
+    Pile,
 }
 
 impl Reference {
@@ -33,7 +35,7 @@ impl Reference {
             Self::Row => Some(row(scene, &balls, t)),
             Self::Kepler => Some(vec![kepler(scene, balls[0], t)]),
             Self::Pi => Some(pi(&balls, t).0),
-            Self::None => None,
+            Self::None | Self::Pile => None,
         }
     }
 
@@ -57,14 +59,14 @@ pub fn mass_and_velocity(body: &Body) -> (f64, DVec3) {
     }
 }
 
-fn radius(body: &Body) -> f64 {
+pub fn radius(body: &Body) -> f64 {
     match body.shape {
         Shape::Sphere { radius } => radius,
         _ => 0.0,
     }
 }
 
-fn gravity(scene: &Scene) -> DVec3 {
+pub fn gravity(scene: &Scene) -> DVec3 {
     let uniform = scene.forces.iter().map(|force| match force.kind {
         ForceKind::GravityPlane { acceleration, .. } => acceleration,
         _ => DVec3::ZERO,

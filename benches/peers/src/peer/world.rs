@@ -1,34 +1,17 @@
-//! rapier3d's side: the same bodies and forces, and the settings it is measured with.
+//! One world of rapier's: the same bodies and forces.
 
 use glam::DVec3;
 use polyscene::scene::{Body, ForceKind, Motion, Scene, Shape, rotation_matrix};
-use rapier3d::prelude::*;
 
+use super::Real;
+use super::engine::prelude::*;
 use crate::engines::{Ball, World};
-
-/// One way to set the solver. All of them are measured and each counts with its best figures.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
-    pub name: &'static str,
-    pub solver_iterations: usize,
-    pub ccd_substeps: usize,
-}
-
-/// Rapier's solver iterations are substeps with the force held: more of them cost more and are better for
-/// contacts and uniform gravity, but one is best for a force that changes along the way.
-pub const SETTINGS: [Settings; 3] = [
-    Settings { name: "1 iteration", solver_iterations: 1, ccd_substeps: 0 },
-    Settings { name: "default", solver_iterations: 4, ccd_substeps: 1 },
-    Settings { name: "8 iterations", solver_iterations: 8, ccd_substeps: 4 },
-];
-
-/// Steps per second.
-pub const RATES: [f64; 4] = [60.0, 240.0, 1000.0, 4000.0];
+use crate::peer::{Settings, Walls};
 
 pub struct Peer {
     world: PhysicsWorld,
     bodies: Vec<RigidBodyHandle>,
-    attractors: Vec<(Vector, f32)>,
+    attractors: Vec<(Vector, Real)>,
     rate: f64,
     steps: u64,
     /// Changes of velocity of each ball that no force explains, to count impacts by.
@@ -41,21 +24,20 @@ struct Watch {
 }
 
 impl Peer {
-    /// `watch_first` counts the impacts of the first ball, at the price of looking at it after each step.
-    pub fn new(scene: &Scene, dt: f64, settings: &Settings, watch_first: bool) -> Self {
+    pub fn new(scene: &Scene, dt: f64, settings: &Settings, walls: Walls, watch_first: bool) -> Self {
         let mut world = PhysicsWorld::default();
         let parameters = &mut world.integration_parameters;
-        parameters.dt = dt as f32;
+        parameters.dt = dt as Real;
         parameters.num_solver_iterations = settings.solver_iterations;
         parameters.max_ccd_substeps = settings.ccd_substeps;
-        parameters.normalized_max_linear_velocity = f32::MAX;
+        parameters.normalized_max_linear_velocity = Real::MAX;
         world.gravity = Vector::ZERO;
         let mut attractors = Vec::new();
         for force in &scene.forces {
             match force.kind {
                 ForceKind::GravityPlane { acceleration, .. } => world.gravity += narrow(acceleration),
                 ForceKind::GravityPoint { position, intensity } => {
-                    attractors.push((narrow(position), intensity as f32));
+                    attractors.push((narrow(position), intensity as Real));
                 }
                 ForceKind::Drag { .. } => {}
             }
@@ -65,7 +47,7 @@ impl Peer {
         let inside = middle(&bodies);
         let mut moving = Vec::new();
         for body in bodies {
-            let (handle, _) = world.insert(rigid_body(body), collider(body, inside));
+            let (handle, _) = world.insert(rigid_body(body), collider(body, inside, walls));
             if body.is_dynamic() {
                 moving.push(handle);
             }
@@ -100,11 +82,16 @@ impl Peer {
 }
 
 impl World for Peer {
-    fn advance(&mut self, time: f64) {
+    fn advance(&mut self, time: f64) -> bool {
         let steps = (time * self.rate).round() as u64;
         while self.steps < steps {
             self.step();
         }
+        true
+    }
+
+    fn time(&self) -> f64 {
+        self.steps as f64 / self.rate
     }
 
     fn read(&self, into: &mut Vec<Ball>) {
@@ -128,21 +115,32 @@ fn rigid_body(body: &Body) -> RigidBodyBuilder {
     builder.translation(narrow(body.position))
 }
 
-/// No friction, Bounce values multiplied, mass as given. A plate is a half-space that faces the balls: it is
-/// the quickest and the safest against tunnelling, and no ball in these scenes goes past a plate's edge.
-fn collider(body: &Body, inside: DVec3) -> ColliderBuilder {
-    let builder = match body.shape {
-        Shape::Sphere { radius } => ColliderBuilder::ball(radius as f32),
+/// No friction, Bounce values multiplied, mass as given. No ball in these scenes goes past a plate's edge, so that a
+/// half-space will do for a plate too.
+fn collider(body: &Body, inside: DVec3, walls: Walls) -> ColliderBuilder {
+    let builder = match (&body.shape, walls) {
+        (&Shape::Sphere { radius }, _) => ColliderBuilder::ball(radius as Real),
+        (&Shape::Plane { half_x, half_y }, Walls::Boxes) => thick_box(body, inside, half_x, half_y),
         _ => ColliderBuilder::new(SharedShape::halfspace(narrow(facing(body, inside)))),
     };
     let builder = match body.motion {
-        Motion::Dynamic { mass, .. } => builder.mass(mass as f32),
+        Motion::Dynamic { mass, .. } => builder.mass(mass as Real),
         Motion::Static => builder,
     };
     builder
         .friction(0.0)
-        .restitution(body.bounce as f32)
+        .restitution(body.bounce as Real)
         .restitution_combine_rule(CoefficientCombineRule::Multiply)
+}
+
+/// A box as thick as the plate is long, so that nothing tunnels, whose face is the plate.
+fn thick_box(body: &Body, inside: DVec3, half_x: f64, half_y: f64) -> ColliderBuilder {
+    let (normal, turned) = (facing(body, inside), rotation_matrix(body.rotation));
+    let half_z = half_x.max(half_y);
+    let axes = [turned.x_axis, turned.y_axis, turned.z_axis].map(narrow);
+    let rotation = Rotation::from_mat3(&Matrix::from_cols(axes[0], axes[1], axes[2]));
+    let pose = Pose::from_parts(narrow(normal * -half_z), rotation);
+    ColliderBuilder::cuboid(half_x as Real, half_y as Real, half_z as Real).position(pose)
 }
 
 /// Mean place of the balls, m.
@@ -159,9 +157,9 @@ fn facing(body: &Body, inside: DVec3) -> DVec3 {
 }
 
 fn narrow(v: DVec3) -> Vector {
-    Vector::new(v.x as f32, v.y as f32, v.z as f32)
+    Vector::new(v.x as Real, v.y as Real, v.z as Real)
 }
 
 fn widen(v: Vector) -> DVec3 {
-    DVec3::new(f64::from(v.x), f64::from(v.y), f64::from(v.z))
+    DVec3::new(v.x as f64, v.y as f64, v.z as f64)
 }
