@@ -68,18 +68,21 @@ pub(super) struct Identity {
     pub order: u32,
 }
 
-/// What does not change about a body.
+/// What does not change about a body. An impact looks at both: each fills one cache line.
 #[derive(Clone, Debug)]
+#[repr(align(64))]
 pub(super) struct Body {
-    /// Apart, since predictions never look at it.
+    /// Apart, since events never look at it.
     pub identity: Box<Identity>,
+    /// The body's place in UserID order: the id, and the order among bodies of the same id.
+    id: i64,
+    order: u32,
     /// kg; infinite for a static body.
     mass: f64,
-    /// 1/kg; 0 for a static body.
-    inverse_mass: f64,
     pub bounce: f64,
     pub shape: Shape,
-    pub material: Option<Arc<str>>,
+    /// Apart, since most have none.
+    material: Option<Box<Box<str>>>,
     /// False once it is removed: the numbers of the others stay.
     pub present: bool,
 }
@@ -88,18 +91,28 @@ impl Body {
     /// `mass` in kg; infinite for a static body.
     pub fn new(identity: Identity, mass: f64, bounce: f64, shape: Shape, material: Option<&str>) -> Self {
         Self {
+            id: identity.id,
+            order: identity.order,
             identity: Box::new(identity),
             mass,
-            inverse_mass: 1.0 / mass,
             bounce,
             shape,
-            material: material.map(Arc::from),
+            material: material.map(|material| Box::new(material.into())),
             present: true,
         }
     }
 
     pub fn is_static(&self) -> bool {
         self.mass.is_infinite()
+    }
+
+    /// UserID order.
+    pub fn rank(&self) -> (i64, u32) {
+        (self.id, self.order)
+    }
+
+    pub fn material(&self) -> Option<&str> {
+        self.material.as_ref().map(|material| &***material)
     }
 
     /// kg; infinite for a static body.
@@ -109,14 +122,16 @@ impl Body {
 
     /// 1/kg; 0 for a static body.
     pub fn inverse_mass(&self) -> f64 {
-        self.inverse_mass
+        1.0 / self.mass
     }
 
     /// kg, of a dynamic body.
     pub fn set_mass(&mut self, mass: f64) {
-        (self.mass, self.inverse_mass) = (mass, 1.0 / mass);
+        self.mass = mass;
     }
 }
+
+const _: () = assert!(size_of::<Body>() == 64, "a body fills one cache line");
 
 /// Where a body starts; a static one stays there.
 #[derive(Clone, Copy, Debug)]
@@ -134,6 +149,8 @@ pub(super) struct Bodies {
     statics: Vec<Body>,
     /// Radii of the dynamic bodies, m: close together, for predictions read many.
     radii: Vec<f64>,
+    /// The least and the largest of them, m.
+    range_of_radii: Option<(f64, f64)>,
     /// Where the static bodies are, as motions that never change.
     static_segments: Vec<Segment>,
 }
@@ -146,7 +163,10 @@ impl Bodies {
             self.static_segments.push(Segment::resting(position));
             BodyId::of_static(self.statics.len() as u32 - 1)
         } else {
-            self.radii.push(body.shape.radius());
+            let radius = body.shape.radius();
+            let (least, largest) = self.range_of_radii.unwrap_or((radius, radius));
+            self.range_of_radii = Some((least.min(radius), largest.max(radius)));
+            self.radii.push(radius);
             self.dynamic.push(body);
             BodyId::of_dynamic(self.dynamic.len() as u32 - 1)
         }
@@ -181,6 +201,11 @@ impl Bodies {
 
     pub fn radius(&self, body: u32) -> f64 {
         self.radii[body as usize]
+    }
+
+    /// The least and the largest radius of the dynamic bodies that ever were there, m.
+    pub fn range_of_radii(&self) -> (f64, f64) {
+        self.range_of_radii.unwrap_or_default()
     }
 
     /// How many static bodies there are, with those removed.

@@ -76,7 +76,8 @@ pub(super) fn compile_body(body: &scene::Body, order: u32) -> Result<(Body, Orig
         Motion::Static => (f64::INFINITY, DVec3::ZERO),
     };
     let shape = compile_shape(body)?;
-    let (label, name) = (Arc::from(body.label.as_str()), Arc::from(body.display_name()));
+    let label: Arc<str> = Arc::from(body.label.as_str());
+    let name = if body.display_name() == body.label { label.clone() } else { Arc::from(body.display_name()) };
     let identity = Identity { key: body.key, id: body.id, label, name, order };
     let compiled = Body::new(identity, mass, body.bounce, shape, body.material.as_deref());
     Ok((compiled, Origin { position: body.position, velocity }))

@@ -46,6 +46,6 @@ pub(super) fn in_id_order(model: &Model, mut event: Event) -> Event {
 
 /// UserID order.
 pub(super) fn rank(model: &Model, body: BodyRef) -> (i64, u32, BodyRef) {
-    let identity = &model.body(BodyId::from_ref(body)).identity;
-    (identity.id, identity.order, body)
+    let (id, order) = model.body(BodyId::from_ref(body)).rank();
+    (id, order, body)
 }

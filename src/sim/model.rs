@@ -60,7 +60,7 @@ impl Model {
             velocity,
             mass: dynamic.mass(),
             radius: self.radius(body),
-            material: dynamic.material.as_deref(),
+            material: dynamic.material(),
         }
     }
 

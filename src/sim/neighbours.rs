@@ -150,12 +150,8 @@ fn predict_neighbours(
 ) {
     let mut scratch = std::mem::take(&mut state.scratch);
     collect(model, state, &mut scratch, body, range, known);
-    let from = ball(model, state, body);
-    let looked_at = scratch.found_dynamic.len();
-    // More than the contact distance of any pair of this body.
-    let near = 2.0 * margin(model, from.radius, state.position(body, time));
-    scratch.found_dynamic.retain(|other| !predict::surely_pass(from, ball(model, state, *other), near));
-    state.counters.pair_tests += (looked_at - scratch.found_dynamic.len()) as u64;
+    let passed = sieve(model, state, &mut scratch.found_dynamic, body, time);
+    state.counters.pair_tests += passed as u64;
     for other in &scratch.found_dynamic {
         predict_pair(model, state, Pair::of(body, BodyId::of_dynamic(*other)), f64::NEG_INFINITY, time);
     }
@@ -163,6 +159,36 @@ fn predict_neighbours(
         predict_pair(model, state, Pair::of(body, BodyId::of_static(*other)), f64::NEG_INFINITY, time);
     }
     state.scratch = scratch;
+}
+
+/// Drops from a list those that a body surely passes; gives how many.
+fn sieve(model: &Model, state: &State, others: &mut Vec<u32>, body: u32, time: f64) -> usize {
+    let looked_at = others.len();
+    let (segment, radius) = (state.segments[body as usize], model.radius(body));
+    // More than the contact distance of any pair of this body.
+    let near = 2.0 * margin(model, radius, state.position(body, time));
+    // First as if all were as large as the largest, for that needs to know only where they fly.
+    let (least, largest) = model.bodies.range_of_radii();
+    let reach = radius + largest;
+    keep(others, |other| !predict::surely_pass(&segment, &state.segments[other as usize], reach, near));
+    if least < largest {
+        keep(others, |other| {
+            let reach = radius + model.radius(other);
+            !predict::surely_pass(&segment, &state.segments[other as usize], reach, near)
+        });
+    }
+    looked_at - others.len()
+}
+
+/// As `Vec::retain`, without branches: half of the answers nobody can foretell.
+fn keep(list: &mut Vec<u32>, keeps: impl Fn(u32) -> bool) {
+    let mut kept = 0;
+    for at in 0..list.len() {
+        let body = list[at];
+        list[kept] = body;
+        kept += usize::from(keeps(body));
+    }
+    list.truncate(kept);
 }
 
 /// The bodies in those tiles, each once.
@@ -179,11 +205,11 @@ fn collect(
     scratch.seen_dynamic[body as usize] = epoch;
     let Scratch { seen_dynamic, seen_static, found_dynamic, found_static, .. } = scratch;
     let mut see_dynamic = |other: u32| {
-        // With who is in the old tiles too, the next impact is predicted already.
-        if known.is_some_and(|known| known.overlaps(&state.registered[other as usize])) {
+        if std::mem::replace(&mut seen_dynamic[other as usize], epoch) == epoch {
             return;
         }
-        if std::mem::replace(&mut seen_dynamic[other as usize], epoch) != epoch {
+        // With who is in the old tiles too, the next impact is predicted already.
+        if !known.is_some_and(|known| known.overlaps(&state.registered[other as usize])) {
             found_dynamic.push(other);
         }
     };

@@ -10,18 +10,19 @@ pub(super) const SERIES: usize = 7;
 /// Motion of one body from `start` on, valid until `end` (absolute model time, s).
 ///
 /// With τ = t − start:  x(τ) = x + vτ + ½aτ² (+ the series of a field segment, see [`Series`]).
-/// Aligned, for predictions read the segments of many bodies and each should cost as few cache lines as it can.
+/// Predictions read the segments of many bodies, of most of them no more than straight flight needs: that is the first
+/// cache line.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(align(64))]
+#[repr(C, align(128))]
 pub(super) struct Segment {
     pub start: f64,
-    /// Infinite where the closed form holds for ever.
-    pub end: f64,
     pub x: DVec3,
     pub v: DVec3,
-    pub a: DVec3,
-    /// Upper bound of |ẍ| over the whole segment, m/s².
+    /// Upper bound of |ẍ| over the whole segment, m/s²; 0 if the flight is straight.
     pub acceleration_bound: f64,
+    pub a: DVec3,
+    /// Infinite where the closed form holds for ever.
+    pub end: f64,
     /// Length of the integrator step whose [`Series`] continues the polynomial; 0 without one.
     pub step: f64,
     /// Length of all that the acceleration is the sum of, m/s²: contact forces may all but cancel the others,
@@ -48,7 +49,8 @@ impl Segment {
             x,
             v,
             a,
-            acceleration_bound: a.length(),
+            // The square of what is very small is 0.
+            acceleration_bound: a.length().max(a.abs().max_element()),
             acceleration_size: a.length(),
             step: 0.0,
             constrained: false,

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::advance::{Search, Skip, first_contact as advance};
 use super::approach::{Across, Approach, Way, gone_after};
 use super::gap::{Ball, Gap, snap, snap_pressure};
-use crate::sim::segment::Path;
+use crate::sim::segment::{Path, Segment};
 use crate::sim::shape::direction;
 use crate::sim::tolerance::{STILL, SURELY_APART};
 
@@ -75,20 +75,21 @@ fn relative_bound(a: Path<'_>, b: Path<'_>) -> f64 {
 }
 
 /// Whether two dynamic spheres fly straight as seen from each other and pass or part: a quick look that is
-/// sure where it says so. It says so of no pair nearer than `near`, m: such a pair may lie against each other. Without
-/// branches but one, so that the looks at many bodies overlap in the processor.
+/// sure where it says so. `reach` is the sum of their radii or more, m. It says so of no pair that is nearer than
+/// `near` beyond it, m: such a pair may lie against each other. Without branches but one, so that the looks at many
+/// bodies overlap in the processor.
 #[inline]
-pub(in crate::sim) fn surely_pass(a: Ball<'_>, b: Ball<'_>, near: f64) -> bool {
-    let (seg_a, seg_b) = (a.path.segment, b.path.segment);
-    if seg_a.step > 0.0 || seg_b.step > 0.0 || seg_a.a != seg_b.a {
+pub(in crate::sim) fn surely_pass(a: &Segment, b: &Segment, reach: f64, near: f64) -> bool {
+    let from = a.start.max(b.start);
+    let (tau_a, tau_b) = (from - a.start, from - b.start);
+    let (p, v) = if (a.acceleration_bound == 0.0) & (b.acceleration_bound == 0.0) {
+        ((b.x + tau_b * b.v) - (a.x + tau_a * a.v), b.v - a.v)
+    } else if a.step > 0.0 || b.step > 0.0 || a.a != b.a {
         return false;
-    }
-    let from = seg_a.start.max(seg_b.start);
-    let (tau_a, tau_b) = (from - seg_a.start, from - seg_b.start);
-    let p = (seg_b.x + tau_b * (seg_b.v + (0.5 * tau_b) * seg_b.a))
-        - (seg_a.x + tau_a * (seg_a.v + (0.5 * tau_a) * seg_a.a));
-    let v = (seg_b.v + tau_b * seg_b.a) - (seg_a.v + tau_a * seg_a.a);
-    let reach = a.radius + b.radius;
+    } else {
+        let p = (b.x + tau_b * (b.v + (0.5 * tau_b) * b.a)) - (a.x + tau_a * (a.v + (0.5 * tau_a) * a.a));
+        (p, (b.v + tau_b * b.a) - (a.v + tau_a * a.a))
+    };
     let apart = p.length_squared() > (reach + near) * (reach + near);
     apart & ((p.dot(v) >= 0.0) | misses(p, v, reach))
 }
