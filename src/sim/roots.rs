@@ -11,6 +11,9 @@ pub(super) fn first_root(distance: f64, rate: f64, bend: f64) -> Option<f64> {
         let root = (rate * rate - 2.0 * bend * distance).sqrt();
         return Some(if rate < 0.0 { 2.0 * distance / (root - rate) } else { (rate + root) / -bend });
     }
+    if bend == 0.0 {
+        return (rate < 0.0).then(|| distance / -rate);
+    }
     let discriminant = rate * rate - 2.0 * bend * distance;
     (rate < 0.0 && discriminant >= 0.0).then(|| 2.0 * distance / (discriminant.sqrt() - rate))
 }
