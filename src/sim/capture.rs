@@ -5,11 +5,14 @@
 
 use glam::DVec3;
 
+use super::body::BodyId;
+use super::event::{Event, EventKind};
 use super::force::Law;
+use super::ledger::record;
 use super::model::Model;
 use super::place::Place;
 use super::state::State;
-use super::tolerance::{BOUND_ALONE, BOUND_DISTURBED, PASSED};
+use super::tolerance::{BOUND_ALONE, BOUND_DISTURBED, BOUND_OF_RADIUS, PASSED, SWALLOWED};
 
 /// A point attractor.
 #[derive(Clone, Copy, Debug)]
@@ -48,10 +51,15 @@ impl Attractor {
     /// Whether a body at the core can't leave it by itself.
     pub fn captures(&self, model: &Model, state: &State, body: u32, (x, v): (DVec3, DVec3)) -> bool {
         let disturbed = is_disturbed(model, state, body);
-        let reach = if disturbed { BOUND_DISTURBED } else { BOUND_ALONE } * model.params.core_radius;
+        let reach = if disturbed { reach(model, body) } else { BOUND_ALONE * model.params.core_radius };
         let apoapsis = self.apoapsis(x, v);
         apoapsis <= reach && self.rules(model, body, x, apoapsis)
     }
+}
+
+/// How far from an attractor a body may be at most that it has captured, m.
+fn reach(model: &Model, body: u32) -> f64 {
+    (BOUND_DISTURBED * model.params.core_radius).max(BOUND_OF_RADIUS * model.radius(body))
 }
 
 /// Whether something takes energy from a body that circles an attractor: air, what it lies against, or what it
@@ -63,9 +71,9 @@ fn is_disturbed(model: &Model, state: &State, body: u32) -> bool {
         || !model.forces.iter().all(|force| reversible(&force.law))
 }
 
-/// The attractor at whose core a place lies.
-fn attractor_at(model: &Model, x: DVec3) -> Option<Attractor> {
-    let reach = PASSED * model.params.core_radius;
+/// The attractor that a body at x may be captured by.
+fn attractor_at(model: &Model, body: u32, x: DVec3) -> Option<Attractor> {
+    let reach = (PASSED * model.params.core_radius).max(reach(model, body));
     model.forces.iter().find_map(|force| match force.law {
         Law::Point { center, intensity } if intensity > 0.0 && (x - center).length() <= reach => {
             Some(Attractor { center, intensity })
@@ -74,11 +82,42 @@ fn attractor_at(model: &Model, x: DVec3) -> Option<Attractor> {
     })
 }
 
+/// Whether a body that something disturbs is bound to an attractor that near that it is captured, wherever it is on its
+/// orbit.
+pub(super) fn is_caught(model: &Model, state: &State, body: u32, (x, v): (DVec3, DVec3)) -> bool {
+    let is_bound = |attractor: Attractor| {
+        let apoapsis = attractor.apoapsis(x, v);
+        apoapsis <= BOUND_OF_RADIUS * model.radius(body) && attractor.rules(model, body, x, apoapsis)
+    };
+    !model.is_ballistic()
+        && is_disturbed(model, state, body)
+        && attractor_at(model, body, x).is_some_and(is_bound)
+}
+
+/// The same for a stepped body, which is captured also where steps can't follow it.
+pub(super) fn is_swallowed(model: &Model, body: u32, (x, v): (DVec3, DVec3)) -> bool {
+    let caught = |attractor: Attractor| {
+        (x - attractor.center).length() <= SWALLOWED * model.radius(body)
+            || attractor.apoapsis(x, v) <= reach(model, body)
+    };
+    attractor_at(model, body, x).is_some_and(caught)
+}
+
+/// Books and reports that a body stays where it is from now on.
+pub(super) fn hold(model: &Model, state: &mut State, body: u32, time: f64) {
+    let (x, v) = (state.position(body, time), state.velocity(body, time));
+    state.account.impact_losses.add(energy_above(model, state, body, time, x));
+    state.account.impulses.add(-model.mass(body) * v);
+    record(state, Event::of_one(time, EventKind::Captured, BodyId::of_dynamic(body).to_ref(), x));
+    state.plunges.remove(&body);
+    state.captured.insert(body);
+}
+
 /// Frees the bodies at whose place no attractor is any more: after an edit.
 pub(super) fn free_unheld(model: &Model, state: &mut State) {
     let segments = &state.segments;
     state.captured.retain(|body| {
-        model.dynamic(*body).present && attractor_at(model, segments[*body as usize].x).is_some()
+        model.dynamic(*body).present && attractor_at(model, *body, segments[*body as usize].x).is_some()
     });
 }
 
@@ -88,9 +127,9 @@ pub(super) fn free_if_struck(model: &Model, state: &mut State, body: u32, veloci
         return;
     }
     let x = state.segments[body as usize].x;
-    let reach = BOUND_DISTURBED * model.params.core_radius;
+    let reach = reach(model, body);
     let stays = |attractor: Attractor| attractor.apoapsis(x, velocity) <= reach;
-    if !attractor_at(model, x).is_some_and(stays) {
+    if !attractor_at(model, body, x).is_some_and(stays) {
         state.captured.remove(&body);
     }
 }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::body::BodyId;
-use super::capture::{Attractor, energy_above};
+use super::capture::{Attractor, hold};
 use super::event::{Event, EventKind};
 use super::fault::Fault;
 use super::force::Law;
@@ -44,11 +44,9 @@ pub(super) fn pass_core(model: &Model, state: &mut State, next: &Predicted) -> R
 }
 
 /// The body stays where it is. What it lay against may go on: it is met again at once where it closes.
-fn capture(model: &Model, state: &mut State, body: u32, time: f64) -> Result<(), Fault> {
-    let (x, v) = (state.position(body, time), state.velocity(body, time));
-    state.account.impact_losses.add(energy_above(model, state, body, time, x));
-    state.account.impulses.add(-model.mass(body) * v);
-    record(state, Event::of_one(time, EventKind::Captured, BodyId::of_dynamic(body).to_ref(), x));
+pub(super) fn capture(model: &Model, state: &mut State, body: u32, time: f64) -> Result<(), Fault> {
+    let x = state.position(body, time);
+    hold(model, state, body, time);
     let pairs: Vec<Pair> =
         state.contacts[body as usize].iter().map(|contact| Pair::of(body, contact.other)).collect();
     let mut starts = vec![Start { body, x, v: DVec3::ZERO }];
@@ -60,7 +58,5 @@ fn capture(model: &Model, state: &mut State, body: u32, time: f64) -> Result<(),
             v: state.velocity(other, time),
         }));
     }
-    state.plunges.remove(&body);
-    state.captured.insert(body);
     restart(model, state, time, &starts)
 }

@@ -1,7 +1,7 @@
 //! The step: one predicted event after the other. [`advance`] is its table of contents.
 
-use super::capture::free_unheld;
-use super::close_pass::pass_core;
+use super::capture::{free_unheld, is_caught};
+use super::close_pass::{capture, pass_core};
 use super::dense::{self, Dense, Role};
 use super::event::EventKind;
 use super::fault::Fault;
@@ -91,6 +91,10 @@ fn step_groups(model: &Model, state: &mut State, time: f64) -> Result<(), Fault>
 
 /// The end of a segment: the next one goes on from there.
 fn go_on(model: &Model, state: &mut State, body: u32, time: f64) -> Result<(), Fault> {
+    let now = (state.position(body, time), state.velocity(body, time));
+    if !state.captured.contains(&body) && is_caught(model, state, body, now) {
+        return capture(model, state, body, time);
+    }
     restart(model, state, time, &[from_now(state, body, time)])
 }
 

@@ -74,6 +74,13 @@ pub(super) const BOUND_ALONE: f64 = 2.0;
 /// the core's own, and turns are so quick that none would end. Smaller follows millions of turns a second.
 pub(super) const BOUND_DISTURBED: f64 = 100.0;
 
+/// And for one that others or air disturb, so many of its own radii: it circles hundreds of times a second there. Smaller
+/// follows turns that take more time than they last, larger takes orbits that a person sees.
+pub(super) const BOUND_OF_RADIUS: f64 = 0.1;
+
+/// A stepped body this near to an attractor, in its own radii, is captured however fast it is: steps can't follow it.
+pub(super) const SWALLOWED: f64 = 0.01;
+
 // Impact groups.
 
 /// Bodies that touch do so to within so many times [`TOUCH`] at least, however small the contact distance: below it

@@ -35,6 +35,8 @@ pub(super) struct Stepped {
     pub a: DVec3,
     /// 1/kg; 0 for one that is held.
     pub inverse_mass: f64,
+    /// How fast the pull of attractors changes, 1/s².
+    pub stiffness: f64,
 }
 
 impl Stepped {
@@ -47,6 +49,7 @@ impl Stepped {
         u: DVec3::ZERO,
         a: DVec3::ZERO,
         inverse_mass: 0.0,
+        stiffness: 0.0,
     };
 }
 

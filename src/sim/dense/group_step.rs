@@ -9,8 +9,11 @@ use super::list::{self, NearOutsiders};
 use super::membership::{Left, component, frozen_with, take_in};
 use super::rest::{freeze, is_still, leave, record_group};
 use super::sweep::{Solution, solve};
-use super::tolerance::{MOST_ATTEMPTS, MOST_HALVINGS, MOST_HALVINGS_TO_CONVERGE, MOST_SWEEPS, WAY_OF_RADIUS};
+use super::tolerance::{
+    MOST_ATTEMPTS, MOST_HALVINGS, MOST_HALVINGS_TO_CONVERGE, MOST_SWEEPS, TURN_IN_A_STEP, WAY_OF_RADIUS,
+};
 use crate::sim::body::BodyId;
+use crate::sim::capture::{hold, is_swallowed};
 use crate::sim::event::EventKind;
 use crate::sim::fault::{Fault, fault};
 use crate::sim::force::Law;
@@ -160,6 +163,7 @@ fn advance(model: &Model, state: &mut State, dense: &mut Dense, time: f64) -> Re
             outcome.near = list::make(model, state, dense, time);
         }
         let components = due(state, dense, time);
+        swallow(model, state, dense, &components, time);
         let reached = reached_frozen(model, state, dense, &components, time);
         if !reached.is_empty() {
             take_in(state, dense, &reached, time, 0);
@@ -188,6 +192,20 @@ fn advance(model: &Model, state: &mut State, dense: &mut Dense, time: f64) -> Re
         break;
     }
     Ok(outcome)
+}
+
+/// Holds the bodies of components that attractors have captured.
+fn swallow(model: &Model, state: &mut State, dense: &Dense, components: &[Component], time: f64) {
+    if model.is_ballistic() {
+        return;
+    }
+    for slot in components.iter().flat_map(|component| &component.slots) {
+        let body = dense.members[*slot as usize].body;
+        let now = (state.position(body, time), state.velocity(body, time));
+        if !state.captured.contains(&body) && is_swallowed(model, body, now) {
+            hold(model, state, body, time);
+        }
+    }
 }
 
 fn bodies_in(dense: &Dense, component: &Component) -> Vec<u32> {
@@ -279,23 +297,34 @@ fn bodies_of(model: &Model, state: &State, dense: &Dense, component: &Component,
     let of = |slot: &u32| {
         let member = &dense.members[*slot as usize];
         let path = state.path(member.body);
-        let (x, v) = (path.position(time), path.velocity(time));
         let inverse_mass = state.inverse_mass(model, member.body);
+        let v = if inverse_mass > 0.0 { path.velocity(time) } else { DVec3::ZERO };
+        let x = path.position(time);
         let a = if inverse_mass > 0.0 { driven(model, member.body, (x, v), time, step) } else { DVec3::ZERO };
         // Where forces change along the way, the leapfrog's other half of the kick.
-        let kick = if member.is_stepped {
+        let kick = if member.is_stepped && inverse_mass > 0.0 {
             0.5 * (time - path.segment.start) * (a - path.segment.a)
         } else {
             DVec3::ZERO
         };
-        Stepped { body: member.body, x, v: v + kick, kick, u: v + kick - 0.5 * step * a, a, inverse_mass }
+        let stiffness = if inverse_mass > 0.0 { stiffness(model, x, v) } else { 0.0 };
+        Stepped {
+            stiffness,
+            body: member.body,
+            x,
+            v: v + kick,
+            kick,
+            u: v + kick - 0.5 * step * a,
+            a,
+            inverse_mass,
+        }
     };
     component.slots.iter().map(of).collect()
 }
 
 /// What the applied forces give a body during a step of length h, m/s². Forces that change faster than that, drag on
-/// what is light and the pull near an attractor, are taken as an implicit midpoint rule would: a = −κx and −κv give
-/// −κx/(1 + ¼h²κ) and −κv/(1 + ½hκ), which no step makes unstable.
+/// what is light and the pull where no halving of the step is enough, are taken as an implicit midpoint rule would:
+/// a = −κx and −κv give −κx/(1 + ¼h²κ) and −κv/(1 + ½hκ), which no step makes unstable.
 fn driven(model: &Model, body: u32, (x, v): (DVec3, DVec3), time: f64, h: f64) -> DVec3 {
     let subject = model.subject(body, time, Place::exact(x), v);
     if model.is_ballistic() {
@@ -310,12 +339,29 @@ fn driven(model: &Model, body: u32, (x, v): (DVec3, DVec3), time: f64, h: f64) -
             }
             Law::Point { center, .. } => {
                 let rate = a.length() / (x - *center).length().max(f64::MIN_POSITIVE);
-                a / (1.0 + 0.25 * h * h * rate)
+                // Steps become shorter here, as far as they can.
+                let shortest = h / f64::from(1_u32 << MOST_HALVINGS);
+                let turn = h.min(shortest.max(TURN_IN_A_STEP / rate.sqrt())) * rate.sqrt();
+                a / (1.0 + 0.25 * (turn * turn - TURN_IN_A_STEP * TURN_IN_A_STEP).max(0.0))
             }
             Law::Uniform { .. } | Law::Custom(_) => a,
         }
     };
     model.forces.iter().map(|force| of_law(&force.law)).sum()
+}
+
+/// How fast the pull of an attractor changes at a place, 1/s²: G/d³ by its own doing, or (v/d)² where a body falls in.
+fn stiffness(model: &Model, x: DVec3, v: DVec3) -> f64 {
+    let of_law = |law: &Law| match *law {
+        Law::Point { center, intensity } if intensity != 0.0 => {
+            let way = x - center;
+            let distance = way.length();
+            let rate = -way.dot(v) / (distance * distance);
+            (intensity.abs() / (distance * distance * distance)).max(rate.max(0.0) * rate)
+        }
+        _ => 0.0,
+    };
+    model.forces.iter().map(|force| of_law(&force.law)).fold(0.0, f64::max)
 }
 
 /// Solves the step of a component, halved as often as it takes.
@@ -366,9 +412,11 @@ fn halvings(model: &Model, dense: &Dense, component: &Component, bodies: &[Stepp
     let of = |member: &Member| member.halvings.saturating_sub(u8::from(member.is_easy));
     let mut halvings = members.map(of).max().unwrap_or(0);
     let ways = bodies.iter().zip(radii).map(|(body, radius)| model.dense_step * body.v.length() / radius);
-    let mut way = ways.fold(0.0, f64::max) / f64::from(1_u32 << halvings);
-    while way > WAY_OF_RADIUS && halvings < MOST_HALVINGS {
-        way *= 0.5;
+    let stiffest = bodies.iter().map(|body| body.stiffness).fold(0.0, f64::max);
+    // The part of a radius that is passed, and that of a turn.
+    let passed =
+        (ways.fold(0.0, f64::max) / WAY_OF_RADIUS).max(model.dense_step * stiffest.sqrt() / TURN_IN_A_STEP);
+    while passed > f64::from(1_u32 << halvings) && halvings < MOST_HALVINGS {
         halvings += 1;
     }
     halvings

@@ -23,6 +23,11 @@ pub(super) const MOST_HALVINGS_TO_CONVERGE: u8 = 4;
 /// apart would be met beside the body.
 pub(super) const WAY_OF_RADIUS: f64 = 0.25;
 
+/// Whoever would turn by more than this in a step about an attractor, √(G/d³)·h in radians, or come nearer by this part
+/// of the distance, needs shorter ones: the error
+/// of a leapfrog turn is a few hundredths of its square.
+pub(super) const TURN_IN_A_STEP: f64 = 0.05;
+
 /// A first step shorter than this part of a step is joined to the next.
 pub(super) const SHORTEST_STEP: f64 = 0.125;
 
@@ -56,7 +61,7 @@ pub(super) const FINEST: f64 = 2e-6;
 pub(super) const COARSEST: f64 = 1e-4;
 
 /// Nor larger than this part of what is left of the overlap budget of a contact, in radii.
-pub(super) const BUDGET: f64 = 8e-4;
+pub(super) const BUDGET: f64 = 6e-4;
 pub(super) const SHARE_OF_BUDGET: f64 = 0.25;
 
 /// For a contact that has used up its budget the smallest change is this part of the usual one: it parts no more, and

@@ -48,6 +48,10 @@ pub struct Outcome {
     pub energy_residual: f64,
     /// The same of momentum.
     pub momentum_residual: f64,
+    /// Whether forces change from place to place or with the speed.
+    pub is_in_field: bool,
+    /// Whether bodies were stepped as a group.
+    pub was_stepped: bool,
     pub events: u64,
 }
 
@@ -75,6 +79,8 @@ impl Outcome {
             escape: f64::NEG_INFINITY,
             energy_residual: 0.0,
             momentum_residual: 0.0,
+            is_in_field: false,
+            was_stepped: false,
             events: 0,
         }
     }
@@ -159,6 +165,8 @@ impl Judge {
         let residual = sim.energy().residual.map_or(f64::INFINITY, f64::abs);
         outcome.energy_residual = outcome.energy_residual.max(residual);
         outcome.momentum_residual = outcome.momentum_residual.max(sim.momentum().residual);
+        outcome.is_in_field = sim.plan().motion != "ballistic";
+        outcome.was_stepped = sim.counters().steps > 0;
         let total = self.total_energy();
         self.lowest = self.lowest.min(total);
         self.outcome.gain = self.outcome.gain.max((total - self.lowest) / self.unit);
