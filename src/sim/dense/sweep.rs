@@ -28,17 +28,18 @@ struct Row {
     normal: [f64; 4],
     bound: f64,
     mass: f64,
-    impulse: f64,
     /// Change of impulse in units of what is tolerated.
     scale: f64,
+    /// Places of its bodies.
+    ends: [u32; 2],
 }
 
 /// The rows of a component with the velocities that they act on. It is kept from step to step for its memory.
 #[derive(Clone, Debug, Default)]
 pub(super) struct System {
     rows: Vec<Row>,
-    /// Places of the bodies of each row.
-    ends: Vec<[u32; 2]>,
+    /// The impulses of the rows, apart, since rows are only read, N·s.
+    impulses: Vec<f64>,
     /// What the last sweep changed of each impulse, and where the conjugate gradient goes on, N·s.
     changes: Vec<f64>,
     directions: Vec<f64>,
@@ -89,8 +90,8 @@ pub(super) fn solve(
         extra += 1;
     };
     solution.loss = loss;
-    for (contact, row) in contacts.iter_mut().zip(&system.rows) {
-        contact.impulse = row.impulse;
+    for (contact, impulse) in contacts.iter_mut().zip(&system.impulses) {
+        contact.impulse = *impulse;
     }
     solution
 }
@@ -99,7 +100,7 @@ impl System {
     /// Bodies as the applied forces alone move them, without rows.
     fn begin(&mut self, bodies: &[Stepped], h: f64) {
         self.rows.clear();
-        self.ends.clear();
+        self.impulses.clear();
         self.moving.clear();
         self.moving.extend(bodies.iter().map(|body| free(body, h)));
     }
@@ -107,7 +108,7 @@ impl System {
     /// Adds rows with the impulses that they begin with.
     fn add(&mut self, contacts: &[Contact], tolerance: &Tolerance) {
         self.rows.extend(contacts.iter().map(|contact| tolerance.row(contact)));
-        self.ends.extend(contacts.iter().map(|contact| [contact.a, contact.b]));
+        self.impulses.extend(contacts.iter().map(|contact| contact.impulse));
         for contact in contacts.iter().filter(|contact| contact.impulse > 0.0) {
             let [x, y, z] = contact.normal.to_array();
             push(&mut self.moving, [contact.a, contact.b], [x, y, z, 0.0], contact.impulse);
@@ -119,7 +120,7 @@ impl System {
 
     /// One sweep; gives the largest change in units of what is tolerated.
     fn sweep(&mut self, is_backward: bool) -> f64 {
-        let rows = self.rows.iter_mut().zip(&self.ends).zip(&mut self.changes);
+        let rows = self.rows.iter().zip(self.impulses.iter_mut().zip(&mut self.changes));
         let (worst, norm) =
             if is_backward { sweep(rows.rev(), &mut self.moving) } else { sweep(rows, &mut self.moving) };
         // Where the change became larger, the conjugate gradient begins anew.
@@ -136,13 +137,12 @@ impl System {
             self.directions.copy_from_slice(&self.changes);
             return;
         }
-        let rows = self.rows.iter_mut().zip(&self.ends);
-        for ((row, ends), (direction, change)) in rows.zip(self.directions.iter_mut().zip(&self.changes)) {
+        let steps = self.directions.iter_mut().zip(&self.changes);
+        for ((row, impulse), (direction, change)) in self.rows.iter().zip(&mut self.impulses).zip(steps) {
             let step = share * *direction;
             *direction = step + change;
-            let impulse = (row.impulse + step).max(0.0);
-            push(&mut self.moving, *ends, row.normal, impulse - row.impulse);
-            row.impulse = impulse;
+            let before = std::mem::replace(impulse, (*impulse + step).max(0.0));
+            push(&mut self.moving, row.ends, row.normal, *impulse - before);
         }
     }
 
@@ -150,9 +150,9 @@ impl System {
     /// budget allows.
     fn judge(&self, contacts: &[Contact], h: f64) -> (f64, bool) {
         let (mut loss, mut sinks) = (0.0, false);
-        for (contact, row) in contacts.iter().zip(&self.rows) {
+        for (contact, impulse) in contacts.iter().zip(&self.impulses) {
             let rate = closing(contact, &self.moving);
-            loss -= 0.5 * row.impulse * (contact.rate + rate);
+            loss -= 0.5 * impulse * (contact.rate + rate);
             let deeper = -h * rate;
             let budget = BUDGET * contact.radius;
             sinks |= deeper > FINEST * contact.radius && deeper - contact.gap > budget;
@@ -167,28 +167,29 @@ fn free(body: &Stepped, h: f64) -> Moving {
     [u.x, u.y, u.z, body.inverse_mass]
 }
 
-/// One sweep over rows, their ends and changes; gives the largest change in units of what is tolerated, and
+/// One sweep over rows with their impulses and changes; gives the largest change in units of what is tolerated, and
 /// Σ change²/mass.
 #[inline(always)]
 fn sweep<'a>(
-    rows: impl Iterator<Item = ((&'a mut Row, &'a [u32; 2]), &'a mut f64)>,
+    rows: impl Iterator<Item = (&'a Row, (&'a mut f64, &'a mut f64))>,
     moving: &mut [Moving],
 ) -> (f64, f64) {
     let (mut worst, mut norm): (f64, f64) = (0.0, 0.0);
-    for ((row, [a, b]), change) in rows {
-        let one = moving[*a as usize];
-        let other = moving.get(*b as usize).copied().unwrap_or_default();
+    for (row, (impulse, change)) in rows {
+        let [a, b] = row.ends;
+        let one = moving[a as usize];
+        let other = moving.get(b as usize).copied().unwrap_or_default();
         let rate = dot(row.normal, minus(other, one));
-        let impulse = (row.impulse + (row.bound - rate) * row.mass).max(0.0);
-        let by = impulse - row.impulse;
+        let before = std::mem::replace(impulse, (*impulse + (row.bound - rate) * row.mass).max(0.0));
+        let by = *impulse - before;
         let (scaled, weighted) = ((by * row.scale).abs(), by * by * (one[3] + other[3]));
         // Quicker than `max`, which asks for NaN.
         worst = if scaled > worst { scaled } else { worst };
         norm += weighted;
         let (one, other) = (moved(one, row.normal, -by), moved(other, row.normal, by));
-        (row.impulse, *change) = (impulse, by);
-        moving[*a as usize] = one;
-        if let Some(body) = moving.get_mut(*b as usize) {
+        *change = by;
+        moving[a as usize] = one;
+        if let Some(body) = moving.get_mut(b as usize) {
             *body = other;
         }
     }
@@ -267,8 +268,8 @@ impl Tolerance {
             normal: [x, y, z, 0.0],
             bound: contact.bound,
             mass: 1.0 / contact.inverse_mass,
-            impulse: contact.impulse,
             scale: contact.inverse_mass * self.h / self.of_contact(contact),
+            ends: [contact.a, contact.b],
         }
     }
 }
