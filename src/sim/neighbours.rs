@@ -49,11 +49,23 @@ pub(super) fn register_within(model: &Model, state: &mut State, body: u32, cente
     }
 }
 
-/// The bodies in the tiles within `reach` of a point, m, each once, in order, and the static ones that are in no tile.
-pub(super) fn within(model: &Model, state: &State, center: DVec3, reach: f64, found: &mut Vec<BodyId>) {
+/// The bodies in the tiles within `reach` of a point, m, each once, in order: the dynamic ones that are wanted, and the
+/// static ones with those that are in no tile.
+pub(super) fn within(
+    model: &Model,
+    state: &State,
+    center: DVec3,
+    reach: f64,
+    is_wanted: impl Fn(u32) -> bool,
+    found: &mut Vec<BodyId>,
+) {
     found.clear();
     let range = range_at(model, reach, center);
-    state.dynamic_tiles.visit(&model.grid, range, None, |other| found.push(BodyId::of_dynamic(other)));
+    state.dynamic_tiles.visit(&model.grid, range, None, |other| {
+        if is_wanted(other) {
+            found.push(BodyId::of_dynamic(other));
+        }
+    });
     model.static_tiles.visit(&model.grid, range, None, |other| found.push(BodyId::of_static(other)));
     found.extend(model.static_tiles.large().iter().map(|other| BodyId::of_static(*other)));
     found.sort_unstable();

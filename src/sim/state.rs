@@ -85,8 +85,6 @@ pub(super) struct Scratch {
     pub seen_static: Vec<u32>,
     pub found_dynamic: Vec<u32>,
     pub found_static: Vec<u32>,
-    /// Places of stepped bodies in the component at hand.
-    pub slots: Vec<u32>,
 }
 
 impl State {

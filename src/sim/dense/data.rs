@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use super::stepped::{Contact, Near, Stepped};
+use super::sweep::{Solution, System};
 use crate::sim::pair::Pair;
 
 /// What a dynamic body is to stepped groups.
@@ -48,6 +50,8 @@ pub(in crate::sim) struct Member {
     /// How often its step is halved, and whether it took few sweeps.
     pub halvings: u8,
     pub is_easy: bool,
+    /// Whether another dynamic body is listed with it.
+    pub has_company: bool,
     /// Whether its segment is one of a group, which is a step of the leapfrog.
     pub is_stepped: bool,
     /// Steps without a force.
@@ -59,17 +63,48 @@ pub(in crate::sim) struct Member {
     pub group: u64,
 }
 
-/// The place of a body that does not move.
-pub(in crate::sim) const FIXED: u32 = u32::MAX;
-
 /// Two bodies near each other, of which one at least is a member.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::sim) struct Listed {
     pub pair: Pair,
-    /// Places among the members: of one of the two, and of the other, or [`FIXED`].
+    /// Places among the members: of one of the two, and of the other, or [`FIXED`](super::stepped::FIXED).
     pub slots: [u32; 2],
     /// Force between them in the last step, N.
     pub force: f64,
+}
+
+/// Members connected by listed pairs, which are stepped together.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Component {
+    /// Places of the members.
+    pub slots: Vec<u32>,
+    /// Its listed pairs, so that those which follow each other share no body.
+    pub near: Vec<Near>,
+    /// Places in the list of its pairs with bodies at rest.
+    pub with_frozen: Vec<u32>,
+    pub work: Work,
+}
+
+/// What the step at hand of a component came to. Between steps it is only memory to be used again.
+#[derive(Debug, Default)]
+pub(super) struct Work {
+    pub bodies: Vec<Stepped>,
+    pub contacts: Vec<Contact>,
+    /// Places in `near` of those that are too far apart to count until they are seen to meet.
+    pub waiting: Vec<u32>,
+    pub system: System,
+    pub solution: Solution,
+    /// s.
+    pub end: f64,
+    pub halvings: u8,
+    /// Whether it lies still and comes to rest instead.
+    pub is_still: bool,
+}
+
+impl Clone for Work {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
 }
 
 /// All of it. There is none where a scene can have no groups.
@@ -81,6 +116,8 @@ pub(in crate::sim) struct Dense {
     pub members: Vec<Member>,
     /// In order.
     pub pairs: Vec<Listed>,
+    /// In the order of their first bodies; as good as the list.
+    pub(super) components: Vec<Component>,
     /// Grows with every new list, so that what was predicted for an old one can be told.
     pub epoch: u32,
     /// When the list was made, s.
@@ -103,6 +140,7 @@ impl Dense {
             activity: vec![Activity::default(); bodies],
             members: Vec::new(),
             pairs: Vec::new(),
+            components: Vec::new(),
             epoch: 0,
             listed_since: 0.0,
             is_list_stale: false,

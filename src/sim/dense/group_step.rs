@@ -3,12 +3,13 @@
 use glam::DVec3;
 
 use super::clock::step_end;
-use super::contact::{Contact, Stepped, contact};
-use super::data::{Dense, FIXED, Member, Role};
+use super::contact::{contact, is_far, stays_apart};
+use super::data::{Component, Dense, Member, Role, Work};
 use super::list::{self, NearOutsiders};
 use super::membership::{Left, component, frozen_with, take_in};
 use super::rest::{freeze, is_still, leave, record_group};
-use super::sweep::{Solution, solve};
+use super::stepped::{Contact, Stepped};
+use super::sweep::{Moving, closing, solve, velocity};
 use super::tolerance::{
     MOST_ATTEMPTS, MOST_HALVINGS, MOST_HALVINGS_TO_CONVERGE, MOST_SWEEPS, TURN_IN_A_STEP, WAY_OF_RADIUS,
 };
@@ -138,23 +139,6 @@ fn with_dense(
     Ok(left)
 }
 
-/// Members connected by listed pairs, which are stepped together.
-struct Component {
-    slots: Vec<u32>,
-    /// Places in the list of pairs.
-    listed: Vec<u32>,
-}
-
-/// A component with what its step came to.
-struct Proposal {
-    component: Component,
-    bodies: Vec<Stepped>,
-    contacts: Vec<Contact>,
-    solution: Solution,
-    end: f64,
-    halvings: u8,
-}
-
 /// Steps all components that are due.
 fn advance(model: &Model, state: &mut State, dense: &mut Dense, time: f64) -> Result<Outcome, Fault> {
     let mut outcome = Outcome::default();
@@ -162,44 +146,28 @@ fn advance(model: &Model, state: &mut State, dense: &mut Dense, time: f64) -> Re
         if list::is_old(model, state, dense, time) {
             outcome.near = list::make(model, state, dense, time);
         }
-        let components = due(state, dense, time);
-        swallow(model, state, dense, &components, time);
-        let reached = reached_frozen(model, state, dense, &components, time);
-        if !reached.is_empty() {
-            take_in(state, dense, &reached, time, 0);
-            continue;
-        }
-        let (mut proposals, mut still) = (Vec::new(), Vec::new());
-        for component in components {
-            let bodies = bodies_of(model, state, dense, &component, time);
-            if is_still(model, dense, &component.slots, &bodies, time) {
-                still.push(component);
-            } else {
-                proposals.push(propose(model, state, dense, component, bodies, time));
+        let mut components = std::mem::take(&mut dense.components);
+        let is_last = attempt == MOST_ATTEMPTS;
+        let is_done = try_step(model, state, dense, &mut components, (time, is_last));
+        let still = take_still(dense, &mut components);
+        dense.components = components;
+        if is_done? {
+            for bodies in still {
+                freeze(model, state, dense, &bodies, time);
+                outcome.frozen.extend(bodies);
             }
+            break;
         }
-        if widen(dense, &proposals, time) && attempt < MOST_ATTEMPTS {
-            continue;
-        }
-        for proposal in proposals {
-            carry_out(model, state, dense, proposal, time)?;
-        }
-        let frozen: Vec<Vec<u32>> = still.iter().map(|component| bodies_in(dense, component)).collect();
-        for bodies in frozen {
-            freeze(model, state, dense, &bodies, time);
-            outcome.frozen.extend(bodies);
-        }
-        break;
     }
     Ok(outcome)
 }
 
-/// Holds the bodies of components that attractors have captured.
-fn swallow(model: &Model, state: &mut State, dense: &Dense, components: &[Component], time: f64) {
+/// Holds the bodies of a component that attractors have captured.
+fn swallow(model: &Model, state: &mut State, dense: &Dense, component: &Component, time: f64) {
     if model.is_ballistic() {
         return;
     }
-    for slot in components.iter().flat_map(|component| &component.slots) {
+    for slot in &component.slots {
         let body = dense.members[*slot as usize].body;
         let now = (state.position(body, time), state.velocity(body, time));
         if !state.captured.contains(&body) && is_swallowed(model, body, now) {
@@ -208,56 +176,54 @@ fn swallow(model: &Model, state: &mut State, dense: &Dense, components: &[Compon
     }
 }
 
-fn bodies_in(dense: &Dense, component: &Component) -> Vec<u32> {
-    component.slots.iter().map(|slot| dense.members[*slot as usize].body).collect()
+/// Steps the components that are due, unless the list must be made anew for it, which is news for all but the last
+/// attempt.
+fn try_step(
+    model: &Model,
+    state: &mut State,
+    dense: &mut Dense,
+    components: &mut [Component],
+    (time, is_last): (f64, bool),
+) -> Result<bool, Fault> {
+    let due = |component: &&mut Component| is_due(state, dense, component, time);
+    let mut due: Vec<&mut Component> = components.iter_mut().filter(due).collect();
+    for component in &mut due {
+        swallow(model, state, dense, component, time);
+        read_bodies(model, state, dense, component, time);
+    }
+    let reached = reached_frozen(model, state, dense, &due, time);
+    if !reached.is_empty() {
+        take_in(state, dense, &reached, time, 0);
+        return Ok(false);
+    }
+    for component in &mut due {
+        component.work.is_still = is_still(model, dense, component, time);
+        if !component.work.is_still {
+            propose(model, state, dense, component, time);
+        }
+    }
+    due.retain(|component| !component.work.is_still);
+    if widen(dense, &due, time) && !is_last {
+        return Ok(false);
+    }
+    due.into_iter().try_for_each(|component| carry_out(model, state, dense, component, time)).map(|()| true)
 }
 
-/// The components with a member whose step has ended, or that has just entered; in the order of their first bodies.
-fn due(state: &State, dense: &Dense, time: f64) -> Vec<Component> {
-    let count = dense.members.len();
-    let mut roots: Vec<u32> = (0..count as u32).collect();
-    for listed in &dense.pairs {
-        let [a, b] = listed.slots;
-        if b != FIXED {
-            let (a, b) = (root(&mut roots, a), root(&mut roots, b));
-            // The first body of a component is its root.
-            roots[a.max(b) as usize] = a.min(b);
-        }
-    }
-    let is_due = |member: &Member| !member.is_stepped || state.segments[member.body as usize].end <= time;
-    let mut place = vec![FIXED; count];
-    let mut is_wanted = vec![false; count];
-    for (slot, member) in (0..).zip(&dense.members) {
-        if is_due(member) {
-            is_wanted[root(&mut roots, slot) as usize] = true;
-        }
-    }
-    let mut components: Vec<Component> = Vec::new();
-    for slot in 0..count as u32 {
-        let root = root(&mut roots, slot) as usize;
-        if is_wanted[root] {
-            if place[root] == FIXED {
-                place[root] = components.len() as u32;
-                components.push(Component { slots: Vec::new(), listed: Vec::new() });
-            }
-            components[place[root] as usize].slots.push(slot);
-        }
-    }
-    for (index, listed) in (0..).zip(&dense.pairs) {
-        let root = root(&mut roots, listed.slots[0]) as usize;
-        if is_wanted[root] {
-            components[place[root] as usize].listed.push(index);
-        }
-    }
-    components
+/// The bodies of each component that was found to lie still.
+fn take_still(dense: &Dense, components: &mut [Component]) -> Vec<Vec<u32>> {
+    let still = components.iter_mut().filter_map(|component| {
+        let bodies = || component.slots.iter().map(|slot| dense.members[*slot as usize].body).collect();
+        std::mem::take(&mut component.work.is_still).then(bodies)
+    });
+    still.collect()
 }
 
-fn root(roots: &mut [u32], mut slot: u32) -> u32 {
-    while roots[slot as usize] != slot {
-        roots[slot as usize] = roots[roots[slot as usize] as usize];
-        slot = roots[slot as usize];
-    }
-    slot
+/// Whether a step of a member has ended, or it has just entered.
+fn is_due(state: &State, dense: &Dense, component: &Component, time: f64) -> bool {
+    component.slots.iter().any(|slot| {
+        let member = &dense.members[*slot as usize];
+        !member.is_stepped || state.segments[member.body as usize].end <= time
+    })
 }
 
 /// The bodies of components at rest that one of these may reach in its step.
@@ -265,15 +231,12 @@ fn reached_frozen(
     model: &Model,
     state: &State,
     dense: &Dense,
-    components: &[Component],
+    components: &[&mut Component],
     time: f64,
 ) -> Vec<u32> {
     let mut reached = Vec::new();
-    for index in components.iter().flat_map(|component| &component.listed) {
+    for index in components.iter().flat_map(|component| &component.with_frozen) {
         let listed = &dense.pairs[*index as usize];
-        if listed.slots[1] != FIXED || listed.pair.second().is_none() {
-            continue;
-        }
         let member = &dense.members[listed.slots[0] as usize];
         let Some(other) = listed.pair.other(member.body).dynamic() else { continue };
         let Role::Frozen(number) = dense.role(other) else { continue };
@@ -292,34 +255,45 @@ fn reached_frozen(
 }
 
 /// The bodies of a component at a time, with u for steps as long as the last.
-fn bodies_of(model: &Model, state: &State, dense: &Dense, component: &Component, time: f64) -> Vec<Stepped> {
+fn read_bodies(model: &Model, state: &State, dense: &Dense, component: &mut Component, time: f64) {
+    let Component { slots, work, .. } = component;
+    let members = slots.iter().map(|slot| &dense.members[*slot as usize]);
+    work.bodies.clear();
+    work.bodies.extend(members.map(|member| body_of(model, state, member, time)));
+}
+
+fn body_of(model: &Model, state: &State, member: &Member, time: f64) -> Stepped {
     let step = model.dense_step;
-    let of = |slot: &u32| {
-        let member = &dense.members[*slot as usize];
-        let path = state.path(member.body);
-        let inverse_mass = state.inverse_mass(model, member.body);
-        let v = if inverse_mass > 0.0 { path.velocity(time) } else { DVec3::ZERO };
-        let x = path.position(time);
-        let a = if inverse_mass > 0.0 { driven(model, member.body, (x, v), time, step) } else { DVec3::ZERO };
-        // Where forces change along the way, the leapfrog's other half of the kick.
-        let kick = if member.is_stepped && inverse_mass > 0.0 {
-            0.5 * (time - path.segment.start) * (a - path.segment.a)
-        } else {
-            DVec3::ZERO
-        };
-        let stiffness = if inverse_mass > 0.0 { stiffness(model, x, v) } else { 0.0 };
-        Stepped {
-            stiffness,
-            body: member.body,
-            x,
-            v: v + kick,
-            kick,
-            u: v + kick - 0.5 * step * a,
-            a,
-            inverse_mass,
-        }
+    let path = state.path(member.body);
+    let inverse_mass = state.inverse_mass(model, member.body);
+    let is_held = inverse_mass == 0.0;
+    let x = path.position(time);
+    let v = if is_held { DVec3::ZERO } else { path.velocity(time) };
+    let a = if inverse_mass > 0.0 { driven(model, member.body, (x, v), time, step) } else { DVec3::ZERO };
+    // Where forces change along the way, the leapfrog's other half of the kick.
+    let kick = if member.is_stepped && !is_held {
+        0.5 * (time - path.segment.start) * (a - path.segment.a)
+    } else {
+        DVec3::ZERO
     };
-    component.slots.iter().map(of).collect()
+    let stiffness = if is_held || model.is_ballistic() { 0.0 } else { stiffness(model, x, v) };
+    let v = v + kick;
+    let (drive, radius) = (a.length(), model.radius(member.body));
+    let mut body = Stepped {
+        body: member.body,
+        x,
+        v,
+        kick,
+        u: v,
+        a,
+        speed: 0.0,
+        drive,
+        inverse_mass,
+        radius,
+        stiffness,
+    };
+    body.take_step(step);
+    body
 }
 
 /// What the applied forces give a body during a step of length h, m/s². Forces that change faster than that, drag on
@@ -365,54 +339,70 @@ fn stiffness(model: &Model, x: DVec3, v: DVec3) -> f64 {
 }
 
 /// Solves the step of a component, halved as often as it takes.
-fn propose(
-    model: &Model,
-    state: &mut State,
-    dense: &Dense,
-    component: Component,
-    mut bodies: Vec<Stepped>,
-    time: f64,
-) -> Proposal {
-    let radii: Vec<f64> = bodies.iter().map(|body| model.radius(body.body)).collect();
-    let mut halvings = halvings(model, dense, &component, &bodies, &radii);
-    let mut local = std::mem::take(&mut state.scratch.slots);
-    local.resize(dense.members.len(), FIXED);
-    for (index, slot) in (0..).zip(&component.slots) {
-        local[*slot as usize] = index;
-    }
+fn propose(model: &Model, state: &mut State, dense: &Dense, component: &mut Component, time: f64) {
+    component.work.halvings = halvings(model, dense, component);
     loop {
-        let end = step_end(model.dense_step, halvings, time);
-        let h = end - time;
-        for body in &mut bodies {
-            body.u = body.v - 0.5 * h * body.a;
-        }
-        let contact_of = |index: &u32| {
-            let listed = &dense.pairs[*index as usize];
-            let [a, b] = listed
-                .slots
-                .map(|slot| if slot == FIXED { bodies.len() as u32 } else { local[slot as usize] });
-            contact(model, state, (*index, listed.pair, listed.force), (a, b), &bodies, h)
-        };
-        let mut contacts: Vec<Contact> = component.listed.iter().filter_map(contact_of).collect();
-        let solution = solve(&mut contacts, &bodies, &radii, h);
-        state.counters.sweeps += solution.sweeps as u64;
-        if solution.has_converged || halvings >= MOST_HALVINGS_TO_CONVERGE {
-            state.scratch.slots = local;
-            return Proposal { component, bodies, contacts, solution, end, halvings };
+        let work = &mut component.work;
+        work.end = step_end(model.dense_step, work.halvings, time);
+        let h = work.end - time;
+        work.bodies.iter_mut().for_each(|body| body.take_step(h));
+        find_contacts(model, state, dense, component, h);
+        solve_contacts(model, state, component, h);
+        let work = &mut component.work;
+        state.counters.sweeps += work.solution.sweeps as u64;
+        if work.solution.has_converged || work.halvings >= MOST_HALVINGS_TO_CONVERGE {
+            return;
         }
         state.counters.halvings += 1;
-        halvings += 1;
+        work.halvings += 1;
     }
+}
+
+/// Finds what touches or may come to in a step of length h, and what is too far off for that.
+fn find_contacts(model: &Model, state: &State, dense: &Dense, component: &mut Component, h: f64) {
+    let Component { near, work: Work { bodies, contacts, waiting, .. }, .. } = component;
+    contacts.clear();
+    waiting.clear();
+    for (place, near) in (0..).zip(near.iter()) {
+        let force = dense.pairs[near.listed as usize].force;
+        if force == 0.0 && is_far(near, bodies, h) {
+            waiting.push(place);
+            continue;
+        }
+        match contact(model, state, near, force, bodies, h) {
+            Some(contact) if contact.is_lazy => waiting.push(place),
+            Some(contact) => contacts.push(contact),
+            None => {}
+        }
+    }
+}
+
+/// Solves the contacts that were found, with those that wait as soon as they are seen to meet.
+fn solve_contacts(model: &Model, state: &State, component: &mut Component, h: f64) {
+    let Component { near, work: Work { bodies, contacts, waiting, system, solution, .. }, .. } = component;
+    let meet = |moving: &[Moving], contacts: &mut Vec<Contact>| {
+        waiting.retain(|place| {
+            let near = &near[*place as usize];
+            if stays_apart(near, bodies, |body| velocity(&moving[body as usize]), h) {
+                return true;
+            }
+            let contact = contact(model, state, near, 0.0, bodies, h);
+            let met = contact.filter(|contact| contact.gap + h * closing(contact, moving) < 0.0);
+            contacts.extend(met);
+            met.is_none()
+        });
+    };
+    *solution = solve(system, contacts, bodies, h, meet);
 }
 
 /// How often the step of a component must be halved at least: as often as the last, or once less after an easy one,
 /// and so often that nobody passes much of its radius in it.
-fn halvings(model: &Model, dense: &Dense, component: &Component, bodies: &[Stepped], radii: &[f64]) -> u8 {
+fn halvings(model: &Model, dense: &Dense, component: &Component) -> u8 {
     let members = component.slots.iter().map(|slot| &dense.members[*slot as usize]);
     let of = |member: &Member| member.halvings.saturating_sub(u8::from(member.is_easy));
     let mut halvings = members.map(of).max().unwrap_or(0);
-    let ways = bodies.iter().zip(radii).map(|(body, radius)| model.dense_step * body.v.length() / radius);
-    let stiffest = bodies.iter().map(|body| body.stiffness).fold(0.0, f64::max);
+    let ways = component.work.bodies.iter().map(|body| model.dense_step * body.v.length() / body.radius);
+    let stiffest = component.work.bodies.iter().map(|body| body.stiffness).fold(0.0, f64::max);
     // The part of a radius that is passed, and that of a turn.
     let passed =
         (ways.fold(0.0, f64::max) / WAY_OF_RADIUS).max(model.dense_step * stiffest.sqrt() / TURN_IN_A_STEP);
@@ -423,15 +413,14 @@ fn halvings(model: &Model, dense: &Dense, component: &Component, bodies: &[Stepp
 }
 
 /// Whether somebody would leave what the list covers; the next list will cover it.
-fn widen(dense: &mut Dense, proposals: &[Proposal], time: f64) -> bool {
+fn widen(dense: &mut Dense, components: &[&mut Component], time: f64) -> bool {
     let mut is_wanted = false;
-    for proposal in proposals {
-        let h = proposal.end - time;
-        for ((slot, body), u) in
-            proposal.component.slots.iter().zip(&proposal.bodies).zip(&proposal.solution.velocities)
-        {
+    for component in components {
+        let work = &component.work;
+        let h = work.end - time;
+        for ((slot, body), moving) in component.slots.iter().zip(&work.bodies).zip(&work.system.moving) {
             let member = &mut dense.members[*slot as usize];
-            let way = h * (u.length() + h * body.a.length());
+            let way = h * (velocity(moving).length() + h * body.drive);
             if (body.x - member.listed_at).length() + way > member.margin {
                 member.widened = 2.0 * way;
                 is_wanted = true;
@@ -447,38 +436,26 @@ fn carry_out(
     model: &Model,
     state: &mut State,
     dense: &mut Dense,
-    proposal: Proposal,
+    component: &Component,
     time: f64,
 ) -> Result<(), Fault> {
-    let Proposal { component, bodies, contacts, solution, end, halvings } = proposal;
-    let h = end - time;
+    let Component { slots, work, .. } = component;
     state.counters.steps += 1;
-    state.counters.contacts += contacts.len() as u64;
-    state.account.impact_losses.add(solution.loss);
-    let is_easy = solution.sweeps < MOST_SWEEPS / 4;
-    for slot in &component.slots {
+    state.counters.contacts += work.contacts.len() as u64;
+    state.account.impact_losses.add(work.solution.loss);
+    let is_easy = work.solution.sweeps < MOST_SWEEPS / 4;
+    for slot in slots {
         let member = &mut dense.members[*slot as usize];
-        (member.halvings, member.is_easy, member.is_stepped) = (halvings, is_easy, true);
+        (member.halvings, member.is_easy, member.is_stepped) = (work.halvings, is_easy, true);
         member.idle = member.idle.saturating_add(1);
     }
-    for index in &component.listed {
-        dense.pairs[*index as usize].force = 0.0;
-    }
-    for contact in &contacts {
-        let listed = &mut dense.pairs[contact.listed as usize];
-        listed.force = contact.impulse / h;
-        if contact.impulse > 0.0 {
-            if listed.pair.second().is_some() {
-                for slot in listed.slots.into_iter().filter(|slot| *slot != FIXED) {
-                    dense.members[slot as usize].idle = 0;
-                }
-            }
-            book_outside(state, contact, &bodies);
-        }
-    }
-    for (body, u) in bodies.iter().zip(&solution.velocities) {
-        let v = if body.inverse_mass > 0.0 { *u - 0.5 * h * body.a } else { DVec3::ZERO };
-        let segment = Segment { end, constrained: true, ..Segment::ballistic(time, body.x, v, body.a) };
+    let h = work.end - time;
+    note_forces(dense, component, h);
+    book_outside(state, work);
+    for (body, moving) in work.bodies.iter().zip(&work.system.moving) {
+        let v = if body.inverse_mass > 0.0 { velocity(moving) - 0.5 * h * body.a } else { DVec3::ZERO };
+        let segment =
+            Segment { end: work.end, constrained: true, ..Segment::ballistic(time, body.x, v, body.a) };
         check(model, &segment).map_err(|error| fault(model, body.body, time, error))?;
         if body.kick != DVec3::ZERO {
             state.account.force_impulse.add(model.mass(body.body) * body.kick);
@@ -488,13 +465,33 @@ fn carry_out(
     Ok(())
 }
 
-/// Books the impulse that what does not move gave.
-fn book_outside(state: &mut State, contact: &Contact, bodies: &[Stepped]) {
-    let is_fixed = |index: u32| bodies.get(index as usize).is_none_or(|body| body.inverse_mass == 0.0);
-    let impulse = contact.impulse * contact.normal;
-    if is_fixed(contact.b) {
-        state.account.impulses.add(-impulse);
-    } else if is_fixed(contact.a) {
-        state.account.impulses.add(impulse);
+/// Keeps the forces for the next step, and who is pushed by another body.
+fn note_forces(dense: &mut Dense, component: &Component, h: f64) {
+    let Component { slots, near, work, .. } = component;
+    for near in near {
+        dense.pairs[near.listed as usize].force = 0.0;
     }
+    for contact in work.contacts.iter().filter(|contact| contact.impulse > 0.0) {
+        let listed = &mut dense.pairs[contact.listed as usize];
+        listed.force = contact.impulse / h;
+        if listed.pair.second().is_some() {
+            for slot in [contact.a, contact.b].into_iter().filter_map(|body| slots.get(body as usize)) {
+                dense.members[*slot as usize].idle = 0;
+            }
+        }
+    }
+}
+
+/// Books the impulses that what does not move gave.
+fn book_outside(state: &mut State, work: &Work) {
+    let is_fixed = |index: u32| work.bodies.get(index as usize).is_none_or(|body| body.inverse_mass == 0.0);
+    let mut given = DVec3::ZERO;
+    for contact in work.contacts.iter().filter(|contact| contact.impulse > 0.0) {
+        if is_fixed(contact.b) {
+            given -= contact.impulse * contact.normal;
+        } else if is_fixed(contact.a) {
+            given += contact.impulse * contact.normal;
+        }
+    }
+    state.account.impulses.add(given);
 }

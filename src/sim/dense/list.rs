@@ -2,7 +2,10 @@
 
 use glam::DVec3;
 
-use super::data::{Dense, FIXED, Listed, Member, Role};
+use super::cells::{Ball, for_each_overlap};
+use super::components;
+use super::data::{Dense, Listed, Member, Role};
+use super::stepped::FIXED;
 use super::tolerance::{OLDEST_LIST, SKIN, SKIN_STEPS};
 use crate::sim::body::BodyId;
 use crate::sim::model::Model;
@@ -34,6 +37,8 @@ pub(super) fn make(model: &Model, state: &mut State, dense: &mut Dense, time: f6
     pairs.sort_unstable_by_key(|listed| listed.pair);
     carry_forces(&dense.pairs, &mut pairs);
     dense.pairs = pairs;
+    note_company(dense);
+    components::find(dense);
     dense.epoch = dense.epoch.wrapping_add(1);
     dense.listed_since = time;
     dense.is_list_stale = false;
@@ -54,38 +59,29 @@ fn place_members(model: &Model, state: &mut State, dense: &mut Dense, time: f64)
     }
 }
 
-/// Pairs of members, found by sorting them along the axis on which they are spread most.
+/// Pairs of members whose balls of reach overlap.
 fn dynamic_pairs(model: &Model, members: &[Member]) -> Vec<Listed> {
-    let axis = longest_axis(members);
-    let reach = |member: &Member| model.radius(member.body) + member.margin;
-    let mut order: Vec<(f64, u32)> =
-        (0..).zip(members).map(|(slot, member)| (member.listed_at[axis] - reach(member), slot)).collect();
-    order.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
+    let ball =
+        |member: &Member| Ball { at: member.listed_at, radius: model.radius(member.body) + member.margin };
+    let balls: Vec<Ball> = members.iter().map(ball).collect();
     let mut pairs = Vec::new();
-    for (nth, (_, slot)) in order.iter().enumerate() {
-        let member = &members[*slot as usize];
-        let (at, reach_of_it) = (member.listed_at, reach(member));
-        let end = at[axis] + reach_of_it;
-        for (_, index) in order[nth + 1..].iter().take_while(|(low, _)| *low <= end) {
-            let other = &members[*index as usize];
-            let both = reach_of_it + reach(other);
-            if (other.listed_at - at).length_squared() <= both * both {
-                let pair = Pair::of(member.body, BodyId::of_dynamic(other.body));
-                // Members are in the order of their bodies, and so is a pair.
-                pairs.push(Listed { pair, slots: [(*slot).min(*index), (*slot).max(*index)], force: 0.0 });
-            }
-        }
-    }
+    for_each_overlap(&balls, |one, other| {
+        // Members are in the order of their bodies, and so is a pair.
+        let slots = [one.min(other), one.max(other)];
+        let [a, b] = slots.map(|slot| members[slot as usize].body);
+        pairs.push(Listed { pair: Pair::of(a, BodyId::of_dynamic(b)), slots, force: 0.0 });
+    });
     pairs
 }
 
-fn longest_axis(members: &[Member]) -> usize {
-    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    for member in members {
-        low = low.min(member.listed_at);
-        high = high.max(member.listed_at);
+/// Notes who has another dynamic body near.
+fn note_company(dense: &mut Dense) {
+    dense.members.iter_mut().for_each(|member| member.has_company = false);
+    for listed in dense.pairs.iter().filter(|listed| listed.pair.second().is_some()) {
+        for slot in listed.slots.into_iter().filter(|slot| *slot != FIXED) {
+            dense.members[slot as usize].has_company = true;
+        }
     }
-    (high - low).max_position()
 }
 
 /// Adds pairs with static and frozen bodies; gives the outsiders in the tiles of members.
@@ -94,7 +90,8 @@ fn near_pairs(model: &Model, state: &State, dense: &Dense, pairs: &mut Vec<Liste
     let mut found = Vec::new();
     for (slot, member) in (0..).zip(&dense.members) {
         let reach = model.radius(member.body) + member.margin;
-        within(model, state, member.listed_at, reach, &mut found);
+        let is_wanted = |body: u32| !dense.is_member(body);
+        within(model, state, member.listed_at, reach, is_wanted, &mut found);
         for other in found.drain(..) {
             let role = other.dynamic().map(|body| dense.role(body));
             match role {

@@ -38,7 +38,7 @@ pub(in crate::sim) fn component(
             }
         }
         let near = SAME_COMPONENT * model.radius(body);
-        within(model, state, state.position(body, time), model.radius(body) + near, &mut found);
+        within(model, state, state.position(body, time), model.radius(body) + near, |_| true, &mut found);
         for other in found.drain(..).filter_map(BodyId::dynamic) {
             let pair = || Pair::of(body, BodyId::of_dynamic(other));
             if other != body && gap_of(model, state, pair(), time).distance <= near {
@@ -72,6 +72,7 @@ pub(super) fn take_in(state: &mut State, dense: &mut Dense, bodies: &[u32], time
             widened: 0.0,
             halvings: 0,
             is_easy: true,
+            has_company: false,
             is_stepped: false,
             idle: 0,
             anchor: x,

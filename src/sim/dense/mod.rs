@@ -6,18 +6,22 @@
 //! leave. It is a regime of bodies, not of the scene: a heap is stepped while what falls towards it flies on from
 //! event to event. Steps lie on a grid of model time, so that nothing depends on when somebody looks.
 //!
-//! `data` is what is stored; `activity` decides who enters, `membership` takes them in; `list` keeps who is near whom,
-//! `contact` makes the bounds of a step, `sweep` solves them, `group_step` does all that for the bodies that are due,
-//! and `rest` finds out who lies still or has left.
+//! `data` is what is stored, `stepped` what a step works on; `activity` decides who enters, `membership` takes them in;
+//! `list` keeps who is near whom, found by `cells`, and `components` who goes together; `contact` makes the bounds of a
+//! step, `sweep` solves them, `group_step` does all that for the bodies that are due, and `rest` finds out who lies
+//! still or has left.
 
 mod activity;
+mod cells;
 mod clock;
+mod components;
 mod contact;
 mod data;
 mod group_step;
 mod list;
 mod membership;
 mod rest;
+mod stepped;
 mod sweep;
 mod tolerance;
 

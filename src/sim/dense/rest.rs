@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::contact::Stepped;
-use super::data::{Dense, FIXED, Role};
+use super::data::{Component, Dense, Role};
 use super::membership::{Left, release};
+use super::stepped::FIXED;
 use super::tolerance::{IDLE_STEPS, STILL, STILL_ENERGY, STILL_STEPS};
 use crate::sim::body::BodyId;
 use crate::sim::books::potential_of;
@@ -21,21 +21,10 @@ pub(super) fn leave(model: &Model, state: &mut State, dense: &mut Dense, time: f
     if dense.is_list_stale {
         return Vec::new();
     }
-    let mut has_company = vec![false; dense.members.len()];
-    for listed in &dense.pairs {
-        let [a, b] = listed.slots;
-        let is_dynamic = listed.pair.second().is_some();
-        if is_dynamic {
-            has_company[a as usize] = true;
-        }
-        if b != FIXED {
-            has_company[b as usize] = true;
-        }
-    }
     let leaves = |slot: usize| {
         let member = &dense.members[slot];
         member.is_stepped
-            && !has_company[slot]
+            && !member.has_company
             && member.idle >= IDLE_STEPS
             && state.segments[member.body as usize].end <= time
     };
@@ -70,25 +59,19 @@ fn lifted(model: &Model, state: &mut State, dense: &Dense, slot: usize, time: f6
 }
 
 /// Notes which bodies moved; whether a component lies still, so that it may be frozen.
-pub(super) fn is_still(
-    model: &Model,
-    dense: &mut Dense,
-    slots: &[u32],
-    bodies: &[Stepped],
-    time: f64,
-) -> bool {
+pub(super) fn is_still(model: &Model, dense: &mut Dense, component: &Component, time: f64) -> bool {
     let mut is_still = true;
     let (mut kinetic, mut scale) = (0.0, 0.0);
-    for (slot, body) in slots.iter().zip(bodies) {
+    for (slot, body) in component.slots.iter().zip(&component.work.bodies) {
         let member = &mut dense.members[*slot as usize];
-        let radius = model.radius(body.body);
-        if (body.x - member.anchor).length() > STILL * radius {
+        let radius = body.radius;
+        if (body.x - member.anchor).length_squared() > (STILL * radius) * (STILL * radius) {
             (member.anchor, member.still_since) = (body.x, time);
         }
         is_still &= member.is_stepped && time - member.still_since >= STILL_STEPS * model.dense_step;
         let mass = model.mass(body.body);
         kinetic += 0.5 * mass * body.u.length_squared();
-        scale += mass * body.a.length() * radius;
+        scale += mass * body.drive * radius;
     }
     is_still && kinetic <= STILL_ENERGY * scale
 }

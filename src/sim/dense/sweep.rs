@@ -2,128 +2,162 @@
 
 use glam::DVec3;
 
-use super::contact::{Contact, Stepped};
+use super::stepped::{Contact, Stepped};
 use super::tolerance::{
     BUDGET, COARSEST, FINEST, FINEST_OF_DEEP, GAIN, MOST_SWEEPS, SHARE_OF_BUDGET, SHARE_OF_WAY,
     SWEEPS_AGAINST_GAIN,
 };
 
-/// Velocities in the middle of a step, with the impulses that led to them.
-#[derive(Clone, Debug)]
+/// What became of the contacts of a component in a step.
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Solution {
-    pub velocities: Vec<DVec3>,
     /// Energy that the contacts took, J.
     pub loss: f64,
     pub sweeps: usize,
     pub has_converged: bool,
 }
 
+/// Velocity, m/s, and inverse mass, 1/kg.
+pub(super) type Moving = [f64; 4];
+
 /// A contact as the sweeps read it: one cache line.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
 struct Row {
-    normal: [f64; 3],
+    /// And 0.
+    normal: [f64; 4],
     bound: f64,
     mass: f64,
-    impulse: f64,
     /// Change of impulse in units of what is tolerated.
     scale: f64,
-    a: u32,
-    b: u32,
+    /// Places of its bodies.
+    ends: [u32; 2],
 }
 
-/// Velocity, and inverse mass.
-type Moving = [f64; 4];
+/// The rows of a component with the velocities that they act on. It is kept from step to step for its memory.
+#[derive(Clone, Debug, Default)]
+pub(super) struct System {
+    rows: Vec<Row>,
+    /// The impulses of the rows, apart, since rows are only read, N·s.
+    impulses: Vec<f64>,
+    /// What the last sweep changed of each impulse, and where the conjugate gradient goes on, N·s.
+    changes: Vec<f64>,
+    directions: Vec<f64>,
+    /// Σ change²/mass of the last sweep; 0 before the first.
+    norm: f64,
+    /// How that compares to the sweep before.
+    share: f64,
+    /// In the middle of the step.
+    pub moving: Vec<Moving>,
+}
 
 /// Solves the contacts of a component in a step of length h. Their impulses are where it begins, and what it finds.
-pub(super) fn solve(contacts: &mut Vec<Contact>, bodies: &[Stepped], radii: &[f64], h: f64) -> Solution {
+/// `meet` adds contacts that are seen to be met.
+pub(super) fn solve(
+    system: &mut System,
+    contacts: &mut Vec<Contact>,
+    bodies: &[Stepped],
+    h: f64,
+    mut meet: impl FnMut(&[Moving], &mut Vec<Contact>),
+) -> Solution {
     let tolerance = Tolerance::of(bodies, h);
-    let mut moving: Vec<Moving> = bodies.iter().map(|body| free(body, h)).collect();
-    moving.push([0.0; 4]);
-    let (mut waiting, taken): (Vec<Contact>, Vec<Contact>) =
-        contacts.drain(..).partition(|contact| contact.is_lazy);
-    *contacts = taken;
-    let mut rows: Vec<Row> = contacts.iter().map(|contact| tolerance.row(contact, h)).collect();
-    rows.iter().for_each(|row| push(&mut moving, row, row.impulse));
-    let allowed = allowed_gain(bodies, radii);
-    let (mut sweeps, mut extra, mut has_converged) = (0, 0, false);
-    let mut conjugate = Conjugate::default();
-    while sweeps < MOST_SWEEPS {
-        conjugate.remember(&rows);
-        let worst = if sweeps % 2 == 0 {
-            sweep(rows.iter_mut(), &mut moving)
-        } else {
-            sweep(rows.iter_mut().rev(), &mut moving)
-        };
-        sweeps += 1;
+    system.begin(bodies, h);
+    system.add(contacts, &tolerance);
+    let allowed = allowed_gain(bodies);
+    let (mut extra, mut solution) = (0, Solution::default());
+    let loss = loop {
+        if solution.sweeps >= MOST_SWEEPS {
+            break system.judge(contacts, h).0;
+        }
+        let worst = system.sweep(solution.sweeps % 2 == 1);
+        solution.sweeps += 1;
         if worst > 1.0 {
-            conjugate.go_on(&mut rows, &mut moving);
+            system.go_on();
             continue;
         }
-        let before = rows.len();
-        waiting.retain(|contact| {
-            let meets = contact.gap + h * closing(contact, &moving) < 0.0;
-            if meets {
-                contacts.push(*contact);
-                rows.push(tolerance.row(contact, h));
-            }
-            !meets
-        });
-        if rows.len() > before {
-            conjugate = Conjugate::default();
+        let before = contacts.len();
+        meet(&system.moving, contacts);
+        if contacts.len() > before {
+            system.add(&contacts[before..], &tolerance);
             continue;
         }
-        has_converged = !sinks(contacts, &moving, h);
-        let gains = -loss(contacts, &rows, &moving) > allowed;
-        if extra >= SWEEPS_AGAINST_GAIN || (has_converged && !gains) {
-            break;
+        let (loss, sinks) = system.judge(contacts, h);
+        solution.has_converged = !sinks;
+        if extra >= SWEEPS_AGAINST_GAIN || (!sinks && -loss <= allowed) {
+            break loss;
         }
-        conjugate.go_on(&mut rows, &mut moving);
+        system.go_on();
         extra += 1;
+    };
+    solution.loss = loss;
+    for (contact, impulse) in contacts.iter_mut().zip(&system.impulses) {
+        contact.impulse = *impulse;
     }
-    let loss = loss(contacts, &rows, &moving);
-    for (contact, row) in contacts.iter_mut().zip(&rows) {
-        contact.impulse = row.impulse;
-    }
-    moving.pop();
-    let velocities = moving.iter().map(|[x, y, z, _]| DVec3::new(*x, *y, *z)).collect();
-    Solution { velocities, loss, sweeps, has_converged }
+    solution
 }
 
-/// The nonlinear conjugate gradient method on top of the sweeps, taking what a sweep changes for the gradient
-/// (Silcowitz-Hansen, Niebe & Erleben 2010): impulses travel through a column of n bodies in some n sweeps, not n².
-#[derive(Default)]
-struct Conjugate {
-    before: Vec<f64>,
-    direction: Vec<f64>,
-    norm: f64,
-}
-
-impl Conjugate {
-    fn remember(&mut self, rows: &[Row]) {
-        self.before.clear();
-        self.before.extend(rows.iter().map(|row| row.impulse));
+impl System {
+    /// Bodies as the applied forces alone move them, without rows.
+    fn begin(&mut self, bodies: &[Stepped], h: f64) {
+        self.rows.clear();
+        self.impulses.clear();
+        self.moving.clear();
+        self.moving.extend(bodies.iter().map(|body| free(body, h)));
     }
 
-    /// Goes on along the directions of before, as long as changes become smaller.
-    fn go_on(&mut self, rows: &mut [Row], moving: &mut [Moving]) {
-        let changes = rows.iter().zip(&self.before).map(|(row, before)| row.impulse - before);
-        let norm: f64 = changes.zip(rows.iter()).map(|(change, row)| change * change / row.mass).sum();
-        let share = norm / self.norm;
-        self.norm = norm;
-        if self.direction.len() != rows.len() || share.is_nan() || share >= 1.0 {
-            self.direction.clear();
-            self.direction.extend(rows.iter().zip(&self.before).map(|(row, before)| row.impulse - before));
+    /// Adds rows with the impulses that they begin with.
+    fn add(&mut self, contacts: &[Contact], tolerance: &Tolerance) {
+        self.rows.extend(contacts.iter().map(|contact| tolerance.row(contact)));
+        self.impulses.extend(contacts.iter().map(|contact| contact.impulse));
+        for contact in contacts.iter().filter(|contact| contact.impulse > 0.0) {
+            let [x, y, z] = contact.normal.to_array();
+            push(&mut self.moving, [contact.a, contact.b], [x, y, z, 0.0], contact.impulse);
+        }
+        self.changes.resize(self.rows.len(), 0.0);
+        self.directions.resize(self.rows.len(), 0.0);
+        self.norm = 0.0;
+    }
+
+    /// One sweep; gives the largest change in units of what is tolerated.
+    fn sweep(&mut self, is_backward: bool) -> f64 {
+        let rows = self.rows.iter().zip(self.impulses.iter_mut().zip(&mut self.changes));
+        let (worst, norm) =
+            if is_backward { sweep(rows.rev(), &mut self.moving) } else { sweep(rows, &mut self.moving) };
+        // Where the change became larger, the conjugate gradient begins anew.
+        (self.share, self.norm) = (norm / self.norm, norm);
+        worst
+    }
+
+    /// The nonlinear conjugate gradient method on top of the sweeps, taking what a sweep changes for the gradient
+    /// (Silcowitz-Hansen, Niebe & Erleben 2010): impulses travel through a column of n bodies in some n sweeps, not
+    /// n². It goes on along the directions of before, as long as changes become smaller.
+    fn go_on(&mut self) {
+        let share = self.share;
+        if share.is_nan() || share >= 1.0 {
+            self.directions.copy_from_slice(&self.changes);
             return;
         }
-        for ((row, direction), before) in rows.iter_mut().zip(&mut self.direction).zip(&self.before) {
-            let change = row.impulse - before;
+        let steps = self.directions.iter_mut().zip(&self.changes);
+        for ((row, impulse), (direction, change)) in self.rows.iter().zip(&mut self.impulses).zip(steps) {
             let step = share * *direction;
             *direction = step + change;
-            let impulse = (row.impulse + step).max(0.0);
-            push(moving, row, impulse - row.impulse);
-            row.impulse = impulse;
+            let before = std::mem::replace(impulse, (*impulse + step).max(0.0));
+            push(&mut self.moving, row.ends, row.normal, *impulse - before);
         }
+    }
+
+    /// Energy that the contacts take, −½ Σ λ (s + s'), J, and whether one of them goes deeper than the overlap
+    /// budget allows.
+    fn judge(&self, contacts: &[Contact], h: f64) -> (f64, bool) {
+        let (mut loss, mut sinks) = (0.0, false);
+        for (contact, impulse) in contacts.iter().zip(&self.impulses) {
+            let rate = closing(contact, &self.moving);
+            loss -= 0.5 * impulse * (contact.rate + rate);
+            let deeper = -h * rate;
+            let budget = BUDGET * contact.radius;
+            sinks |= deeper > FINEST * contact.radius && deeper - contact.gap > budget;
+        }
+        (loss, sinks)
     }
 }
 
@@ -133,61 +167,77 @@ fn free(body: &Stepped, h: f64) -> Moving {
     [u.x, u.y, u.z, body.inverse_mass]
 }
 
-/// One sweep; gives the largest change in units of what is tolerated.
+/// One sweep over rows with their impulses and changes; gives the largest change in units of what is tolerated, and
+/// Σ change²/mass.
 #[inline(always)]
-fn sweep<'a>(rows: impl Iterator<Item = &'a mut Row>, moving: &mut [Moving]) -> f64 {
-    let mut worst: f64 = 0.0;
-    for row in rows {
-        let (a, b) = (moving[row.a as usize], moving[row.b as usize]);
-        let [x, y, z] = row.normal;
-        let rate = x * (b[0] - a[0]) + y * (b[1] - a[1]) + z * (b[2] - a[2]);
-        let impulse = (row.impulse + (row.bound - rate) * row.mass).max(0.0);
-        let change = impulse - row.impulse;
-        row.impulse = impulse;
-        worst = worst.max((change * row.scale).abs());
-        push(moving, row, change);
+fn sweep<'a>(
+    rows: impl Iterator<Item = (&'a Row, (&'a mut f64, &'a mut f64))>,
+    moving: &mut [Moving],
+) -> (f64, f64) {
+    let (mut worst, mut norm): (f64, f64) = (0.0, 0.0);
+    for (row, (impulse, change)) in rows {
+        let [a, b] = row.ends;
+        let one = moving[a as usize];
+        let other = moving.get(b as usize).copied().unwrap_or_default();
+        let rate = dot(row.normal, minus(other, one));
+        let before = std::mem::replace(impulse, (*impulse + (row.bound - rate) * row.mass).max(0.0));
+        let by = *impulse - before;
+        let (scaled, weighted) = ((by * row.scale).abs(), by * by * (one[3] + other[3]));
+        // Quicker than `max`, which asks for NaN.
+        worst = if scaled > worst { scaled } else { worst };
+        norm += weighted;
+        let (one, other) = (moved(one, row.normal, -by), moved(other, row.normal, by));
+        *change = by;
+        moving[a as usize] = one;
+        if let Some(body) = moving.get_mut(b as usize) {
+            *body = other;
+        }
     }
-    worst
+    (worst, norm)
 }
 
 #[inline(always)]
-fn push(moving: &mut [Moving], row: &Row, impulse: f64) {
-    let [x, y, z] = row.normal;
-    for (index, impulse) in [(row.a, -impulse), (row.b, impulse)] {
-        let body = &mut moving[index as usize];
-        let change = impulse * body[3];
-        body[0] += change * x;
-        body[1] += change * y;
-        body[2] += change * z;
+fn push(moving: &mut [Moving], [a, b]: [u32; 2], normal: [f64; 4], impulse: f64) {
+    let one = &mut moving[a as usize];
+    *one = moved(*one, normal, -impulse);
+    if let Some(other) = moving.get_mut(b as usize) {
+        *other = moved(*other, normal, impulse);
     }
+}
+
+/// A body after an impulse.
+#[inline(always)]
+fn moved(body: Moving, normal: [f64; 4], impulse: f64) -> Moving {
+    let change = impulse * body[3];
+    std::array::from_fn(|axis| body[axis] + change * normal[axis])
+}
+
+#[inline(always)]
+fn minus(one: Moving, other: Moving) -> [f64; 4] {
+    std::array::from_fn(|axis| one[axis] - other[axis])
+}
+
+#[inline(always)]
+fn dot(one: [f64; 4], other: [f64; 4]) -> f64 {
+    (one[0] * other[0] + one[2] * other[2]) + (one[1] * other[1] + one[3] * other[3])
 }
 
 /// n·(u'_b − u'_a), m/s.
-fn closing(contact: &Contact, moving: &[Moving]) -> f64 {
-    let (a, b) = (moving[contact.a as usize], moving[contact.b as usize]);
-    contact.normal.dot(DVec3::new(b[0] - a[0], b[1] - a[1], b[2] - a[2]))
+pub(super) fn closing(contact: &Contact, moving: &[Moving]) -> f64 {
+    let of = |body: u32| moving.get(body as usize).map_or(DVec3::ZERO, velocity);
+    contact.normal.dot(of(contact.b) - of(contact.a))
 }
 
-/// Whether a contact goes deeper than the overlap budget allows.
-fn sinks(contacts: &[Contact], moving: &[Moving], h: f64) -> bool {
-    let goes_deep = |contact: &Contact| {
-        let deeper = -h * closing(contact, moving);
-        let budget = BUDGET * contact.radius;
-        deeper > FINEST * contact.radius && deeper - contact.gap > budget
-    };
-    contacts.iter().any(goes_deep)
-}
-
-/// −½ Σ λ (s + s'), J.
-fn loss(contacts: &[Contact], rows: &[Row], moving: &[Moving]) -> f64 {
-    let loaded = contacts.iter().zip(rows).filter(|(_, row)| row.impulse > 0.0);
-    loaded.map(|(contact, row)| -0.5 * row.impulse * (contact.rate + closing(contact, moving))).sum()
+/// m/s.
+pub(super) fn velocity(moving: &Moving) -> DVec3 {
+    let [x, y, z, _] = *moving;
+    DVec3::new(x, y, z)
 }
 
 /// Energy that what the sweeps leave may add, J.
-fn allowed_gain(bodies: &[Stepped], radii: &[f64]) -> f64 {
-    let moving = bodies.iter().zip(radii).filter(|(body, _)| body.inverse_mass > 0.0);
-    let least = moving.map(|(body, radius)| body.a.length() * radius / body.inverse_mass);
+fn allowed_gain(bodies: &[Stepped]) -> f64 {
+    let moving = bodies.iter().filter(|body| body.inverse_mass > 0.0);
+    let least = moving.map(|body| body.drive * body.radius / body.inverse_mass);
     GAIN * least.fold(f64::INFINITY, f64::min)
 }
 
@@ -195,12 +245,14 @@ fn allowed_gain(bodies: &[Stepped], radii: &[f64]) -> f64 {
 struct Tolerance {
     /// Of the way that bodies pass in a step on average, m.
     way: f64,
+    /// Length of the step, s.
+    h: f64,
 }
 
 impl Tolerance {
     fn of(bodies: &[Stepped], h: f64) -> Self {
         let mean: f64 = bodies.iter().map(|body| body.u.length_squared()).sum::<f64>() / bodies.len() as f64;
-        Self { way: SHARE_OF_WAY * h * mean.sqrt() }
+        Self { way: SHARE_OF_WAY * h * mean.sqrt(), h }
     }
 
     /// min(clamp(0.1 h u, 2e-6 r, 1e-4 r), max((8e-4 r + g)/4, 2e-7 r)), m.
@@ -210,15 +262,14 @@ impl Tolerance {
         self.way.clamp(finest, coarsest).min(left.max(FINEST_OF_DEEP * finest))
     }
 
-    fn row(&self, contact: &Contact, h: f64) -> Row {
+    fn row(&self, contact: &Contact) -> Row {
+        let [x, y, z] = contact.normal.to_array();
         Row {
-            normal: contact.normal.to_array(),
+            normal: [x, y, z, 0.0],
             bound: contact.bound,
             mass: 1.0 / contact.inverse_mass,
-            impulse: contact.impulse,
-            scale: contact.inverse_mass * h / self.of_contact(contact),
-            a: contact.a,
-            b: contact.b,
+            scale: contact.inverse_mass * self.h / self.of_contact(contact),
+            ends: [contact.a, contact.b],
         }
     }
 }
