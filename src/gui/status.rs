@@ -2,7 +2,7 @@
 
 use egui::{RichText, Ui};
 
-use super::colors::tones;
+use super::colors::{color32, tones};
 use super::context::AppContext;
 use super::widgets::mono;
 use super::{badge, numbers};
@@ -33,8 +33,26 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>, pace: &Pace) {
         badge::show(ui, context);
         item(ui, "step", &numbers::duration(frame.step_wall_s), 58.0, "Computing time of the last Δt");
         item(ui, "frame", &numbers::duration(pace.frame_s), 58.0, "Time that the window last took to draw");
+        stepped(ui, context);
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| version(ui, context));
     });
+}
+
+/// How many bodies are stepped, while there are any.
+fn stepped(ui: &mut Ui, context: &AppContext<'_>) {
+    let Some(stepped) = context.session.frame().stepped else { return };
+    let (count, since) = (stepped.count, numbers::significant(stepped.since, 4));
+    let text = format!("{} {} stepped since {since} s", numbers::count(count as u64), bodies_word(count));
+    let help = format!(
+        "Bodies that touch too often for single events go on in steps of {}, marked by diamonds in the views",
+        numbers::duration(stepped.step)
+    );
+    let color = color32(context.palette().stepped);
+    ui.label(RichText::new(text).small().color(color)).on_hover_text(help);
+}
+
+fn bodies_word(count: usize) -> &'static str {
+    if count == 1 { "body" } else { "bodies" }
 }
 
 /// The format that saving writes, and why.

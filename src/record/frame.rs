@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::lag::Lag;
 use crate::scene::{Diagnostic, NodeKey};
-use crate::sim::{ContactState, Counters, Energy, Event, Method, Momentum, Plan, Tiling};
+use crate::sim::{ContactState, Counters, Energy, Event, Method, Momentum, Plan, SteppedBodies, Tiling};
 
 /// What a runner is doing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -33,6 +34,16 @@ pub struct BodyFrame {
     /// J.
     pub kinetic: f64,
     pub contact: ContactState,
+}
+
+/// A contact through which bodies of a heap press on each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactFrame {
+    pub keys: [NodeKey; 2],
+    /// The centre of the first body, and that of the second or, of a static one, the point on its surface, m.
+    pub ends: [DVec3; 2],
+    /// N.
+    pub force: f64,
 }
 
 /// One ledger row with the names a person knows.
@@ -85,6 +96,11 @@ pub struct Frame {
     pub open_step: Option<(f64, f64)>,
     /// In UserID order.
     pub bodies: Vec<BodyFrame>,
+    /// How many bodies are stepped now.
+    pub stepped: Option<SteppedBodies>,
+    /// What presses on what among bodies that are stepped or came to rest so, and whether weaker contacts were left out.
+    pub contacts: Vec<ContactFrame>,
+    pub contacts_truncated: bool,
     /// Events of the last (or open) Δt, oldest first, and whether older ones were left out.
     pub events: Vec<Arc<EventRow>>,
     pub events_truncated: bool,
@@ -105,6 +121,8 @@ pub struct Frame {
     pub events_per_s: f64,
     /// Model seconds per wall second really reached while playing.
     pub real_speed: f64,
+    /// How far and why playing falls behind the speed asked for; `None` while it does not.
+    pub lag: Option<Lag>,
     /// Whether there is something to step back to.
     pub can_step_back: bool,
     /// Why the scene cannot be simulated, or geometric warnings of the start.

@@ -6,6 +6,7 @@ mod frame;
 mod grid;
 mod history;
 mod inline;
+mod lag;
 mod limits;
 mod publish;
 mod recorder;
@@ -16,8 +17,9 @@ mod thread;
 use std::sync::Arc;
 
 pub use command::RunCommand;
-pub use frame::{BodyFrame, EventRow, Frame, Jump, RunState};
+pub use frame::{BodyFrame, ContactFrame, EventRow, Frame, Jump, RunState};
 pub use inline::InlineRunner;
+pub use lag::{Busiest, Lag, LagCause};
 pub use limits::{Exceeded, Limits, Watch, advance};
 pub use thread::ThreadRunner;
 

@@ -8,7 +8,7 @@
 //!
 //! `data` is what is stored; `activity` decides who enters, `membership` takes them in; `list` keeps who is near whom,
 //! `contact` makes the bounds of a step, `sweep` solves them, `group_step` does all that for the bodies that are due,
-//! and `rest` finds out who lies still or has left.
+//! and `rest` finds out who lies still or has left. `view` is what can be seen of it.
 
 mod activity;
 mod clock;
@@ -20,6 +20,7 @@ mod membership;
 mod rest;
 mod sweep;
 mod tolerance;
+mod view;
 
 pub(super) use activity::{least_crowd, note_lossy, note_work};
 pub(super) use clock::step_length;
@@ -27,3 +28,4 @@ pub(super) use data::{Dense, Role};
 pub(super) use group_step::{enter, next_step, reach, step, wake_all};
 pub(super) use membership::component;
 pub(super) use tolerance::LARGE_ISLAND;
+pub(super) use view::{contact_forces, stepped_bodies};
