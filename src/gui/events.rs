@@ -35,6 +35,8 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>) {
         ui.add_space(8.0);
         let text = if frame.dt_index == 0 && frame.open_step.is_none() {
             "No events yet. Step forward (.) or go to the next event (N)."
+        } else if frame.stepped.is_some() {
+            "No events in this Δt: contacts of stepped bodies are none. The overlay Force chains shows them."
         } else {
             "No events in this Δt. Next event (N) goes on to one."
         };

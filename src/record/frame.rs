@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::lag::Lag;
 use crate::scene::{Diagnostic, NodeKey};
 use crate::sim::{ContactState, Counters, Energy, Event, Method, Momentum, Plan, SteppedBodies, Tiling};
 
@@ -68,6 +67,34 @@ pub struct Jump {
     pub time: f64,
     /// Size of the change of the energy residual (of the momentum residual where a force has no potential).
     pub size: f64,
+}
+
+/// Playing that reaches less than the speed asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lag {
+    /// Share of the speed asked for that is reached, 0 to 1.
+    pub share: f64,
+    pub cause: LagCause,
+}
+
+/// What most of the time goes to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LagCause {
+    /// So many bodies that are stepped together.
+    Stepped { bodies: usize },
+    /// Events: how many per second of model time, and of which bodies most are in the Δt being looked at.
+    Events { per_model_s: f64, busiest: Option<Busiest> },
+    /// The integration of bodies in fields, of the one with the largest acceleration most.
+    Field { body: Option<NodeKey> },
+}
+
+/// The bodies that most events are of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Busiest {
+    pub a: NodeKey,
+    pub b: Option<NodeKey>,
+    /// Of all events listed, 0 to 1.
+    pub share: f64,
 }
 
 impl Frame {

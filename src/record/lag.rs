@@ -1,57 +1,29 @@
-//! How far playing falls behind the speed asked for, and what the time goes to: stepped heaps and fields by what
-//! was counted, events for the rest.
+//! How far playing falls behind the speed asked for, and what the time goes to, by what was counted.
 
 use std::cmp::Reverse;
 
 use rustc_hash::FxHashMap;
 
+use super::frame::{Busiest, Lag, LagCause};
 use super::run::Run;
 use crate::scene::NodeKey;
 use crate::sim::{ContactState, Counters};
 
-/// Playing that reaches less than the speed asked for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Lag {
-    /// Share of the speed asked for that is reached, 0 to 1.
-    pub share: f64,
-    pub cause: LagCause,
-}
-
-/// What most of the time goes to.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum LagCause {
-    /// So many bodies that are stepped together.
-    Stepped { bodies: usize },
-    /// Events: how many per second of model time, and of which bodies most are in the Δt being looked at.
-    Events { per_model_s: f64, busiest: Option<Busiest> },
-    /// The integration of bodies in fields, of the one with the largest acceleration most.
-    Field { body: Option<NodeKey> },
-}
-
-/// The bodies that most events are of.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Busiest {
-    pub a: NodeKey,
-    pub b: Option<NodeKey>,
-    /// Of all events listed, 0 to 1.
-    pub share: f64,
-}
-
 /// Playing that loses less of its time is not said to fall behind.
 const NOTED: f64 = 0.05;
 
-/// Wall-clock seconds of one contact of a step, of one in one sweep, and of one evaluation of a field with what is
-/// computed from it, on a machine of 2020. They only decide which cause is named: a factor of two changes nothing where
+/// Wall-clock seconds of one contact of a step, of one in one sweep, of one evaluation of a field with what is
+/// computed from it, of a pair whose impact is predicted, and of an event, on a machine of 2020. They only decide which cause is named: a factor of two changes nothing where
 /// one cause stands out.
 const CONTACT_S: f64 = 150e-9;
 const SWEEP_S: f64 = 15e-9;
 const EVALUATION_S: f64 = 250e-9;
+const PAIR_S: f64 = 100e-9;
+const EVENT_S: f64 = 10e-6;
 
 /// What was measured between two looks.
 pub(super) struct Measured {
     pub(super) before: Counters,
-    /// Wall-clock seconds of computing.
-    pub(super) worked: f64,
     /// Model seconds simulated and given up, and events reached.
     pub(super) gained: f64,
     pub(super) lost: f64,
@@ -73,7 +45,7 @@ fn cause(run: &Run, measured: &Measured) -> LagCause {
     let sweeps = since(|counters| counters.sweeps) / solved.max(1.0);
     let stepped = contacts * (CONTACT_S + sweeps * SWEEP_S);
     let field = since(|counters| counters.force_evaluations) * EVALUATION_S;
-    let events = measured.worked - stepped - field;
+    let events = since(|counters| counters.pair_tests) * PAIR_S + measured.events * EVENT_S;
     if stepped >= field.max(events) {
         return LagCause::Stepped { bodies: run.simulation.stepped().map_or(0, |stepped| stepped.count) };
     }

