@@ -11,21 +11,30 @@ use super::numbers::{significant, tiny};
 use super::widgets::{mono, severity_icon};
 use crate::editor::Action;
 use crate::record::Frame;
+use crate::scene::Shape;
 
 /// Residuals above this, and overlaps in metres, deserve a second look. Below, nothing can be seen.
 const NOTICEABLE: f64 = 1e-6;
+
+/// Overlap of stepped bodies that is part of the method, in radii of the smallest.
+const OF_STEPPED: f64 = 1e-3;
 
 /// What the badge says.
 struct Figures {
     energy: Option<f64>,
     momentum: Option<f64>,
     overlap: f64,
+    /// Overlap that does not deserve a second look, m.
+    allowed: f64,
     events: usize,
 }
 
 impl Figures {
-    fn of(frame: &Frame) -> Self {
+    fn of(context: &AppContext<'_>) -> Self {
+        let frame = context.session.frame();
+        let allowed = if frame.counters.steps > 0 { OF_STEPPED * smallest_radius(context) } else { 0.0 };
         Self {
+            allowed: allowed.max(NOTICEABLE),
             energy: frame.energy.and_then(|energy| energy.residual),
             momentum: frame.momentum.map(|momentum| momentum.residual),
             overlap: frame.worst_overlap,
@@ -34,8 +43,8 @@ impl Figures {
     }
 
     fn is_noticeable(&self) -> bool {
-        let residuals = [self.energy, self.momentum, Some(self.overlap)];
-        residuals.into_iter().flatten().any(|residual| residual.abs() > NOTICEABLE)
+        let mut residuals = [self.energy, self.momentum].into_iter().flatten();
+        self.overlap > self.allowed || residuals.any(|residual| residual.abs() > NOTICEABLE)
     }
 
     fn text(&self) -> String {
@@ -51,11 +60,23 @@ impl Figures {
     }
 }
 
+/// Of the moving bodies, m.
+fn smallest_radius(context: &AppContext<'_>) -> f64 {
+    let bodies = context.scene().into_iter().flat_map(|scene| &scene.bodies);
+    let radii = bodies.filter(|body| body.is_dynamic()).filter_map(|body| match body.shape {
+        Shape::Sphere { radius } => Some(radius),
+        Shape::Plane { .. } | Shape::Unbuilt { .. } => None,
+    });
+    radii.reduce(f64::min).unwrap_or(0.0)
+}
+
 pub fn show(ui: &mut Ui, context: &AppContext<'_>) {
     let frame = context.session.frame();
-    let figures = Figures::of(frame);
+    let figures = Figures::of(context);
     if figures.is_noticeable() {
-        severity_icon(ui, false).on_hover_text("A residual or an overlap is above 1e-6");
+        severity_icon(ui, false).on_hover_text(
+            "A residual is above 1e-6, or an overlap above 1e-6 m and what stepped bodies may have",
+        );
     }
     let jump = frame.largest_jump;
     let color = if figures.is_noticeable() { tones(ui).warning } else { ui.visuals().text_color() };
@@ -83,7 +104,8 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>) {
 fn help(frame: &Frame) -> String {
     let mut text = "ΔE: change of the total energy that impacts, drag and edits do not explain, over the energy at \
                     the start.\nΔp: change of the momentum that forces and static bodies do not explain, over the \
-                    largest sum of momenta so far.\nOverlap: the deepest of any two bodies so far.\n"
+                    largest sum of momenta so far.\nOverlap: the deepest of any two bodies so far; of stepped ones up to a thousandth \
+                    of their radius.\n"
         .to_owned();
     if let Some(total) = frame.energy.and_then(|energy| energy.total) {
         // writing to a string cannot fail

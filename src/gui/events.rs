@@ -35,6 +35,8 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>) {
         ui.add_space(8.0);
         let text = if frame.dt_index == 0 && frame.open_step.is_none() {
             "No events yet. Step forward (.) or go to the next event (N)."
+        } else if frame.stepped.is_some() {
+            "No events in this Δt: contacts of stepped bodies are none. The overlay Force chains shows them."
         } else {
             "No events in this Δt. Next event (N) goes on to one."
         };
@@ -135,6 +137,9 @@ fn cells(context: &AppContext<'_>, frame: &Frame, row: &EventRow) -> [String; 8]
 pub fn bodies(context: &AppContext<'_>, row: &EventRow) -> String {
     let name = |key| context.shown.and_then(|shown| shown.name(key));
     let a = name(row.a_key).unwrap_or(&row.a_label);
+    if row.b_key.is_none() && row.event.bodies > 1 {
+        return format!("{a} and {} more", significant(f64::from(row.event.bodies - 1), 9));
+    }
     joined(a, row.b_key.and_then(name).unwrap_or(&row.b_label))
 }
 
@@ -152,14 +157,14 @@ fn share(frame: &Frame, time: f64) -> String {
 
 /// All events as text with tabs, full digits.
 pub fn as_text(frame: &Frame) -> String {
-    let mut text = String::from("seq\tt\tkind\ta\tb\tvn_before\tvn_after\timpulse\tx\ty\tz\n");
+    let mut text = String::from("seq\tt\tkind\ta\tb\tvn_before\tvn_after\timpulse\tx\ty\tz\tbodies\n");
     for row in &frame.events {
         let event = &row.event;
         let [x, y, z] = event.point.to_array();
         // writing to a string cannot fail
         let _ = writeln!(
             text,
-            "{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{x}\t{y}\t{z}",
+            "{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{x}\t{y}\t{z}\t{}",
             event.seq,
             event.time,
             event.kind.name(),
@@ -168,6 +173,7 @@ pub fn as_text(frame: &Frame) -> String {
             event.vn_before,
             event.vn_after,
             event.impulse,
+            event.bodies,
         );
     }
     text

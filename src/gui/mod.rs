@@ -11,6 +11,7 @@ mod error;
 mod events;
 mod icons;
 mod inspector;
+mod lag;
 mod launch;
 mod menu;
 mod numbers;

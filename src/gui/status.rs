@@ -2,7 +2,7 @@
 
 use egui::{RichText, Ui};
 
-use super::colors::tones;
+use super::colors::{color32, tones};
 use super::context::AppContext;
 use super::widgets::mono;
 use super::{badge, numbers};
@@ -31,10 +31,28 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>, pace: &Pace) {
         let per_s = numbers::significant(frame.events_per_s, 3);
         item(ui, "events/s", &per_s, 48.0, "Events per second of computing, smoothed");
         badge::show(ui, context);
+        stepped(ui, context);
         item(ui, "step", &numbers::duration(frame.step_wall_s), 58.0, "Computing time of the last Δt");
         item(ui, "frame", &numbers::duration(pace.frame_s), 58.0, "Time that the window last took to draw");
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| version(ui, context));
     });
+}
+
+/// How many bodies are stepped, while there are any.
+fn stepped(ui: &mut Ui, context: &AppContext<'_>) {
+    let Some(stepped) = context.session.frame().stepped else { return };
+    let (count, since) = (stepped.count, numbers::significant(stepped.since, 3));
+    let text = format!("{} {} stepped since {since} s", numbers::count(count as u64), bodies_word(count));
+    let help = format!(
+        "Bodies that touch too often for single events go on in steps of {}, marked by diamonds in the views",
+        numbers::duration(stepped.step)
+    );
+    let color = color32(context.palette().stepped);
+    ui.label(RichText::new(text).small().color(color)).on_hover_text(help);
+}
+
+fn bodies_word(count: usize) -> &'static str {
+    if count == 1 { "body" } else { "bodies" }
 }
 
 /// The format that saving writes, and why.
@@ -51,7 +69,14 @@ fn version(ui: &mut Ui, context: &AppContext<'_>) {
     ui.label(RichText::new(text).small().color(tones(ui).weak)).on_hover_text(help);
 }
 
+/// Room for the name of a number, points.
+const NAME_WIDTH: f32 = 40.0;
+
+/// A number with its name, where there is room for it.
 fn item(ui: &mut Ui, name: &str, value: &str, width: f32, help: &str) {
+    if ui.available_width() < width + NAME_WIDTH {
+        return;
+    }
     let weak = tones(ui).weak;
     let response = ui
         .scope(|ui| {

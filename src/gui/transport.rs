@@ -7,7 +7,7 @@ use super::context::AppContext;
 use super::inspector::number::{Number, number};
 use super::viewport::Layout;
 use super::widgets::{command_button, icon_button, severity_icon};
-use super::{icons, numbers};
+use super::{icons, lag, numbers};
 use crate::editor::{self, Action, Command, Shared};
 use crate::record::RunState;
 use crate::scene::Edit;
@@ -160,6 +160,11 @@ fn speed_menu(ui: &mut Ui, context: &AppContext<'_>) {
     );
 }
 
+/// The largest speed with a name that is no larger.
+fn reachable(speed: f64) -> Option<(f64, &'static str)> {
+    SPEEDS.into_iter().rev().find(|(value, _)| *value <= speed)
+}
+
 /// The scene's own, which is saved with it.
 fn time_speed(ui: &mut Ui, context: &AppContext<'_>) {
     let Some(scene) = context.scene() else { return };
@@ -183,7 +188,9 @@ fn time_speed(ui: &mut Ui, context: &AppContext<'_>) {
 fn state(ui: &mut Ui, context: &AppContext<'_>) {
     let tones = tones(ui);
     let frame = context.session.frame();
+    let behind = frame.lag.as_ref().filter(|_| frame.state == RunState::Playing);
     let (text, color, help) = match frame.state {
+        _ if behind.is_some() => (String::new(), tones.weak, ""),
         RunState::Playing => (
             format!("playing {} ×", numbers::significant(frame.real_speed, 2)),
             tones.good,
@@ -196,6 +203,9 @@ fn state(ui: &mut Ui, context: &AppContext<'_>) {
     };
     if !text.is_empty() {
         ui.label(RichText::new(text).color(color)).on_hover_text(help);
+    }
+    if let Some(lag) = behind {
+        lag::show(ui, context, lag, reachable(context.session.playback().speed() * lag.share));
     }
     if context.session.needs_reset() {
         severity_icon(ui, false);

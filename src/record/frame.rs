@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::scene::{Diagnostic, NodeKey};
-use crate::sim::{ContactState, Counters, Energy, Event, Method, Momentum, Plan, Tiling};
+use crate::sim::{ContactState, Counters, Energy, Event, Method, Momentum, Plan, SteppedBodies, Tiling};
 
 /// What a runner is doing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -35,6 +35,16 @@ pub struct BodyFrame {
     pub contact: ContactState,
 }
 
+/// A contact through which bodies of a heap press on each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactFrame {
+    pub keys: [NodeKey; 2],
+    /// The centre of the first body, and that of the second or, of a static one, the point on its surface, m.
+    pub ends: [DVec3; 2],
+    /// N.
+    pub force: f64,
+}
+
 /// One ledger row with the names a person knows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EventRow {
@@ -57,6 +67,34 @@ pub struct Jump {
     pub time: f64,
     /// Size of the change of the energy residual (of the momentum residual where a force has no potential).
     pub size: f64,
+}
+
+/// Playing that reaches less than the speed asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lag {
+    /// Share of the speed asked for that is reached, 0 to 1.
+    pub share: f64,
+    pub cause: LagCause,
+}
+
+/// What most of the time goes to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LagCause {
+    /// So many bodies that are stepped together.
+    Stepped { bodies: usize },
+    /// Events: how many per second of model time, and of which bodies most are in the Δt being looked at.
+    Events { per_model_s: f64, busiest: Option<Busiest> },
+    /// The integration of bodies in fields, of the one with the largest acceleration most.
+    Field { body: Option<NodeKey> },
+}
+
+/// The bodies that most events are of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Busiest {
+    pub a: NodeKey,
+    pub b: Option<NodeKey>,
+    /// Of all events listed, 0 to 1.
+    pub share: f64,
 }
 
 impl Frame {
@@ -85,6 +123,11 @@ pub struct Frame {
     pub open_step: Option<(f64, f64)>,
     /// In UserID order.
     pub bodies: Vec<BodyFrame>,
+    /// How many bodies are stepped now.
+    pub stepped: Option<SteppedBodies>,
+    /// What presses on what among bodies that are stepped or came to rest so, and whether weaker contacts were left out.
+    pub contacts: Vec<ContactFrame>,
+    pub contacts_truncated: bool,
     /// Events of the last (or open) Δt, oldest first, and whether older ones were left out.
     pub events: Vec<Arc<EventRow>>,
     pub events_truncated: bool,
@@ -105,6 +148,8 @@ pub struct Frame {
     pub events_per_s: f64,
     /// Model seconds per wall second really reached while playing.
     pub real_speed: f64,
+    /// How far and why playing falls behind the speed asked for; `None` while it does not.
+    pub lag: Option<Lag>,
     /// Whether there is something to step back to.
     pub can_step_back: bool,
     /// Why the scene cannot be simulated, or geometric warnings of the start.

@@ -6,6 +6,7 @@ mod frame;
 mod grid;
 mod history;
 mod inline;
+mod lag;
 mod limits;
 mod publish;
 mod recorder;
@@ -16,7 +17,7 @@ mod thread;
 use std::sync::Arc;
 
 pub use command::RunCommand;
-pub use frame::{BodyFrame, EventRow, Frame, Jump, RunState};
+pub use frame::{BodyFrame, Busiest, ContactFrame, EventRow, Frame, Jump, Lag, LagCause, RunState};
 pub use inline::InlineRunner;
 pub use limits::{Exceeded, Limits, Watch, advance};
 pub use thread::ThreadRunner;

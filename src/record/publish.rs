@@ -4,11 +4,14 @@ use std::sync::Arc;
 
 use super::recorder::RunRecorder;
 use super::run::Run;
-use super::{BodyFrame, Frame};
-use crate::sim::{Plan, Simulation};
+use super::{BodyFrame, ContactFrame, Frame, Lag};
+use crate::sim::{BodyRef, Plan, Simulation};
 
 /// Occupied tiles that a frame lists; an overlay that shows more would be a solid block.
 const MAX_TILES: usize = 20_000;
+
+/// Contacts of heaps that a frame lists, the strongest.
+const MAX_CONTACTS: usize = 20_000;
 
 /// What a runner measured with its clock.
 #[derive(Clone, Copy, Debug, Default)]
@@ -16,6 +19,7 @@ pub(super) struct Pace {
     pub(super) step_wall_s: f64,
     pub(super) events_per_s: f64,
     pub(super) real_speed: f64,
+    pub(super) lag: Option<Lag>,
 }
 
 pub(super) fn frame_of(recorder: &mut RunRecorder, revision: u64, pace: Pace) -> Frame {
@@ -27,6 +31,7 @@ pub(super) fn frame_of(recorder: &mut RunRecorder, revision: u64, pace: Pace) ->
         step_wall_s: pace.step_wall_s,
         events_per_s: pace.events_per_s,
         real_speed: pace.real_speed,
+        lag: pace.lag,
         ..Frame::default()
     };
     match &mut recorder.run {
@@ -41,12 +46,16 @@ pub(super) fn frame_of(recorder: &mut RunRecorder, revision: u64, pace: Pace) ->
 fn with_run(base: Frame, run: &Run) -> Frame {
     let simulation = &run.simulation;
     let plan: &Plan = simulation.plan();
+    let contacts = contacts(simulation);
     Frame {
         time: simulation.time(),
         dt_index: run.grid.index(),
         step: run.grid.span(),
         open_step: run.grid.open,
         bodies: bodies(simulation),
+        stepped: simulation.stepped(),
+        contacts_truncated: contacts.len() >= MAX_CONTACTS,
+        contacts,
         events: run.rows.list.iter().cloned().collect(),
         events_truncated: run.rows.truncated,
         event_count: run.last_event,
@@ -77,6 +86,18 @@ fn bodies(simulation: &Simulation) -> Vec<BodyFrame> {
                 kinetic: 0.5 * simulation.mass(body)? * state.velocity.length_squared(),
                 contact: state.contact,
             })
+        })
+        .collect()
+}
+
+fn contacts(simulation: &Simulation) -> Vec<ContactFrame> {
+    let position = |body: BodyRef| simulation.state(body).map(|state| state.position);
+    let contacts = simulation.contact_forces(MAX_CONTACTS).into_iter();
+    contacts
+        .map(|contact| ContactFrame {
+            keys: [contact.a, contact.b].map(|body| simulation.key(body)),
+            ends: [contact.a, contact.b].map(|body| position(body).unwrap_or(contact.point)),
+            force: contact.force,
         })
         .collect()
 }

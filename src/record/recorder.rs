@@ -43,6 +43,8 @@ enum Task {
         speed: f64,
         /// Model seconds that have come due and are not yet simulated.
         due: f64,
+        /// Model seconds that were given up, for the machine cannot follow.
+        lost: f64,
     },
 }
 
@@ -98,8 +100,18 @@ impl RunRecorder {
 
     /// Notes that wall-clock time has passed, while playing.
     pub(super) fn elapse(&mut self, wall_s: f64) {
-        if let Task::Play { dt, speed, due } = &mut self.task {
-            *due = (*due + wall_s.max(0.0) * *speed).min(MOST_DUE * *speed + *dt);
+        if let Task::Play { dt, speed, due, lost } = &mut self.task {
+            let wanted = *due + wall_s.max(0.0) * *speed;
+            *due = wanted.min(MOST_DUE * *speed + *dt);
+            *lost += wanted - *due;
+        }
+    }
+
+    /// Model seconds that playing has given up since the last call.
+    pub(super) fn take_lost(&mut self) -> f64 {
+        match &mut self.task {
+            Task::Play { lost, .. } => std::mem::take(lost),
+            _ => 0.0,
         }
     }
 
@@ -187,7 +199,7 @@ impl RunRecorder {
             RunCommand::NextEvent { dt } if valid(dt) => self.task = Task::ToEvent { dt, empty: 0 },
             RunCommand::FinishStep => self.task = Task::Finish,
             RunCommand::Play { dt, speed } if valid(dt) && speed.is_finite() && speed > 0.0 => {
-                self.task = Task::Play { dt, speed, due: 0.0 };
+                self.task = Task::Play { dt, speed, due: 0.0, lost: 0.0 };
             }
             RunCommand::StepBack => self.task = run.step_back().map_or(Task::Idle, Task::Back),
             RunCommand::EventBack => self.task = run.event_back().map_or(Task::Idle, Task::Back),

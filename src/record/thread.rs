@@ -6,9 +6,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
+use super::lag::{Measured, lag_of};
 use super::publish::{Pace, frame_of};
 use super::recorder::RunRecorder;
 use super::{Frame, RunCommand, RunState, Runner};
+use crate::sim::Counters;
 
 /// Events between two looks at the clock and at the commands: in scenes of many bodies each takes milliseconds.
 const SLICE: u32 = 8;
@@ -85,6 +87,7 @@ struct Clock {
     last_frame: Instant,
     /// Time, events, Δt and model time when the last measurement began.
     since: (Instant, u64, u64, f64),
+    counters: Counters,
     working: Duration,
     /// What making the last frame took.
     publishing: Duration,
@@ -105,6 +108,7 @@ impl Worker {
             last_elapse: now,
             last_frame: now,
             since: (now, 0, 0, 0.0),
+            counters: Counters::default(),
             working: Duration::ZERO,
             publishing: Duration::ZERO,
             pace: Pace::default(),
@@ -176,7 +180,6 @@ impl Worker {
     }
 
     fn measure(&mut self) {
-        let Some(run) = &self.recorder.run else { return };
         let now = Instant::now();
         let (start, events, steps, time) = self.clock.since;
         let playing = self.recorder.state() == RunState::Playing;
@@ -184,6 +187,8 @@ impl Worker {
         if playing && now - start < PACE_TIME {
             return;
         }
+        let lost = self.recorder.take_lost();
+        let Some(run) = &self.recorder.run else { return };
         let (new_events, new_steps) = (run.last_event, run.grid.index());
         let worked = self.clock.working.as_secs_f64();
         let stepped = new_steps.saturating_sub(steps);
@@ -194,6 +199,14 @@ impl Worker {
         self.clock.pace.events_per_s = if worked > 0.0 { gained / worked } else { 0.0 };
         self.clock.pace.real_speed =
             if playing { (run.simulation.time() - time).max(0.0) / wall } else { 0.0 };
+        let measured = Measured {
+            before: self.clock.counters,
+            gained: (run.simulation.time() - time).max(0.0),
+            lost,
+            events: gained,
+        };
+        self.clock.pace.lag = if playing { lag_of(run, &measured) } else { None };
+        self.clock.counters = run.simulation.counters();
         self.clock.since = (now, new_events, new_steps, run.simulation.time());
         self.clock.working = Duration::ZERO;
     }

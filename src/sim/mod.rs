@@ -70,6 +70,8 @@ pub use event::{BodyRef, Event, EventKind};
 pub use fault::Fault;
 pub use force::{Force, Subject};
 pub use method::Method;
-pub use report::{BodyState, ContactState, Counters, Energy, Momentum, Plan, Tiling};
+pub use report::{
+    BodyState, ContactForce, ContactState, Counters, Energy, Momentum, Plan, SteppedBodies, Tiling,
+};
 pub use simulation::{CompileError, Progress, Simulation, Snapshot};
 pub use stepping::StepLimits;

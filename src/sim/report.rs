@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use super::event::BodyRef;
+
 /// How a dynamic body is moving.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ContactState {
@@ -24,6 +26,40 @@ impl ContactState {
             Self::Stepped => "stepped",
         }
     }
+
+    /// What that is, for a tooltip.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Self::Flight => "moves freely",
+            Self::Rest => "lies still on what it touches",
+            Self::Slide => "moves along what it touches",
+            Self::Stepped => "touches others too often for single events, and is stepped together with them",
+        }
+    }
+}
+
+/// Bodies that are stepped because they touch too often for events.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SteppedBodies {
+    pub count: usize,
+    /// Since when some are without a break, s.
+    pub since: f64,
+    /// Length of a step, which is halved where it must be, s.
+    pub step: f64,
+}
+
+/// What two bodies that are stepped, or came to rest so, press on each other with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactForce {
+    /// The first is dynamic.
+    pub a: BodyRef,
+    pub b: BodyRef,
+    /// On the surface of the first, m.
+    pub point: DVec3,
+    /// Unit vector from the first to the second.
+    pub normal: DVec3,
+    /// In the last step, N.
+    pub force: f64,
 }
 
 /// State of one dynamic body at one time.

@@ -341,7 +341,9 @@ impl<'a> Search<'a> {
         for old in later.into_iter().skip(1) {
             let (coefficients, direction, norm) = self.beside_active(old.link, old.sign);
             let target = self.target(old.link, old.sign, &coefficients);
-            let norm = norm.max(f64::MIN_POSITIVE);
+            // What is left of one that is a combination of others is rounding, of its own size.
+            let whole = self.normal(old.link, old.sign);
+            let norm = norm.max(DEPENDENT * DEPENDENT * self.inner(&whole, &whole));
             self.active.push(Active { coefficients, direction, norm, target, ..old });
         }
     }

@@ -15,9 +15,9 @@ use super::force::Force;
 use super::method::Method;
 use super::model::Model;
 use super::neighbours::enter;
-use super::report::{BodyState, Counters, Energy, Momentum, Plan, Tiling};
+use super::report::{BodyState, ContactForce, Counters, Energy, Momentum, Plan, SteppedBodies, Tiling};
 use super::state::State;
-use super::{change, drive, hash, monitor};
+use super::{change, dense, drive, hash, monitor};
 use crate::scene::{Diagnostic, NodeKey, Scene};
 
 /// Why a scene cannot be simulated.
@@ -182,6 +182,17 @@ impl Simulation {
         self.dynamic_index(body).map_or(DVec3::ZERO, |index| {
             self.model.applied_force(&subject(&self.model, &self.state, index, self.state.now))
         })
+    }
+
+    /// How many bodies are stepped now; `None` for none.
+    pub fn stepped(&self) -> Option<SteppedBodies> {
+        dense::stepped_bodies(&self.model, &self.state)
+    }
+
+    /// What bodies that are stepped, or came to rest so, press on each other with; if there are more contacts than
+    /// `most`, the strongest.
+    pub fn contact_forces(&self, most: usize) -> Vec<ContactForce> {
+        dense::contact_forces(&self.model, &self.state, most)
     }
 
     /// The document's key of a body; the default key for [`BodyRef::NONE`].

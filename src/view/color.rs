@@ -69,6 +69,7 @@ pub struct Palette {
     pub rest: Color,
     pub slide: Color,
     pub stepped: Color,
+    pub chain: Color,
     pub axes: [Color; 3],
 }
 
@@ -97,6 +98,7 @@ const DARK: Palette = Palette {
     rest: Color::rgb(150, 200, 255),
     slide: Color::rgb(255, 205, 120),
     stepped: Color::rgb(190, 150, 255),
+    chain: Color::rgb(255, 250, 236),
     axes: [Color::rgb(240, 92, 92), Color::rgb(112, 208, 96), Color::rgb(92, 150, 255)],
 };
 
@@ -125,6 +127,7 @@ const LIGHT: Palette = Palette {
     rest: Color::rgb(24, 96, 190),
     slide: Color::rgb(160, 92, 0),
     stepped: Color::rgb(110, 60, 190),
+    chain: Color::rgb(16, 20, 28),
     axes: [Color::rgb(204, 38, 38), Color::rgb(38, 138, 28), Color::rgb(30, 86, 210)],
 };
 

@@ -7,6 +7,12 @@ pub fn number(value: f64, digits: usize) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
+/// `value` with at most three significant digits, or with all before the point.
+pub(super) fn short(value: f64) -> String {
+    let exponent = if value.is_normal() { libm::log10(value.abs()).floor() } else { 0.0 };
+    number(value, (2.0 - exponent).clamp(0.0, 12.0) as usize)
+}
+
 /// A length in the unit that keeps it short: `20 cm`, `1 m`, `5 km`.
 pub fn with_unit(metres: f64) -> String {
     const UNITS: [(f64, &str); 5] = [(1e3, "km"), (1.0, "m"), (1e-2, "cm"), (1e-3, "mm"), (1e-6, "µm")];

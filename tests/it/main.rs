@@ -39,6 +39,8 @@ mod gui_badge;
 mod gui_edit;
 // Files in the window: start card, open, save, unsaved changes, the window's own dialog.
 mod gui_files;
+// Heaps in the window: marks, status, chains, and why playing falls behind.
+mod gui_heap;
 // Pictures of the window: its views are drawn, and only when they change.
 mod gui_picture;
 // The real program in a real window: open, edit, step, save, close; and without a display.

@@ -2,12 +2,12 @@
 
 use glam::{DVec3, dvec3};
 use polyscene::scene::{NodeKey, Scene};
-use polyscene::sim::{ContactState, Event, EventKind, SimEdit, Simulation};
+use polyscene::sim::{BodyRef, ContactState, Event, EventKind, SimEdit, Simulation};
 use polyscene::study::Random;
 
 use crate::common::build::{Build, Shaped, ball};
 use crate::common::contact_scenes::{ContactScene, scaled};
-use crate::common::drive::{Sampling, assert_same_bits, run, simulation, watch};
+use crate::common::drive::{Sampling, advance, assert_same_bits, run, simulation, watch};
 use crate::common::heaps::{BOX, GRAVITY, Heap, RADIUS};
 
 /// Looks between events, s.
@@ -55,6 +55,41 @@ fn small_heaps_come_to_rest() {
             let resting = count_of(&sim, ContactState::Rest);
             assert_eq!(resting, balls, "of {balls} balls of {restitution}, seed {seed}");
         }
+    }
+}
+
+#[test]
+fn a_heap_at_rest_presses_on_its_floor_with_its_weight() {
+    let heap = Heap::of(27, 0.2, 1);
+    let scene = heap.scene();
+    let mut sim = simulation(&scene);
+    watched(&heap, &mut sim, &scene, 5.0);
+    assert!(sim.stepped().is_none(), "it has come to rest");
+    let forces = sim.contact_forces(usize::MAX);
+    let on_statics = forces.iter().filter(|contact| matches!(contact.b, BodyRef::Static(_)));
+    let down: f64 = on_statics.map(|contact| -contact.force * contact.normal.y).sum();
+    let weight: f64 = sim.dynamic_bodies().filter_map(|body| sim.mass(body)).sum::<f64>() * -GRAVITY;
+    assert!((down - weight).abs() <= 0.05 * weight, "{down} N for a weight of {weight} N");
+    let strongest = forces.iter().map(|contact| contact.force).fold(0.0, f64::max);
+    assert_eq!(sim.contact_forces(1).iter().map(|contact| contact.force).collect::<Vec<_>>(), [strongest]);
+}
+
+#[test]
+fn what_is_stepped_is_told_with_its_forces_and_since_when() {
+    let heap = Heap::of(27, 0.2, 1);
+    let scene = heap.scene();
+    let mut sim = simulation(&scene);
+    assert!(sim.stepped().is_none() && sim.contact_forces(9).is_empty());
+    let events = advance(&mut sim, 0.25, LOOK);
+    let first = events.iter().find(|event| event.kind == EventKind::Dense).expect("it is stepped by now");
+    let stepped = sim.stepped().expect("it is not at rest yet");
+    assert_eq!(stepped.count, count_of(&sim, ContactState::Stepped));
+    assert!(stepped.since >= first.time && stepped.since < sim.time());
+    for contact in sim.contact_forces(usize::MAX) {
+        assert!(contact.force > 0.0 && (contact.normal.length() - 1.0).abs() < 1e-12);
+        let state = sim.state(contact.a).expect("the first is dynamic");
+        let off = (contact.point - state.position).length() - RADIUS;
+        assert!(off.abs() < 1e-9, "{off} m off the surface");
     }
 }
 

@@ -5,9 +5,10 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec3, dvec3};
 use polyscene::scene::{NodeKey, Shape};
+use polyscene::sim::ContactState;
 use polyscene::view::{
-    Camera, DrawList, ListCache, OVERLAYS, OverlaySet, Projection, Theme, Trails, VIEWS, ViewInput,
-    ViewPreset, Viewport, build_draw_list, scene_bounds,
+    Camera, Color, DrawList, ListCache, OVERLAYS, OverlaySet, PointShape, Projection, Theme, Trails, VIEWS,
+    ViewInput, ViewPreset, Viewport, build_draw_list, scene_bounds,
 };
 
 use crate::view_scenes::{ball, body, empty, frame, furnished_box};
@@ -126,6 +127,39 @@ fn every_overlay_shows_something_and_only_when_asked() {
         assert!(size(OverlaySet::from_ids([overlay.id])) > none, "{} shows nothing", overlay.id);
         assert!(!overlay.label.is_empty() && overlay.help.ends_with('.'), "{}", overlay.id);
     }
+}
+
+#[test]
+fn force_chains_are_the_thicker_the_larger_the_force() {
+    let (scene, frame) = (furnished_box(), frame());
+    for theme in [Theme::Dark, Theme::Light] {
+        let list = build_draw_list(&ViewInput {
+            frame: Some(&frame),
+            overlays: OverlaySet::from_ids(["chains"]),
+            theme,
+            ..ViewInput::new(&scene, Camera::default(), viewport())
+        });
+        let chain = theme.palette().chain;
+        let is_chain = |color: Color| color.with_alpha(255) == chain;
+        let lines: Vec<_> = list.lines.iter().filter(|line| line.on_top && is_chain(line.color)).collect();
+        let [weak, strong] = lines[..] else { panic!("{} lines for two contacts", lines.len()) };
+        assert!(strong.width > 1.5 * weak.width, "{} and {} points", strong.width, weak.width);
+        assert!(strong.color.0[3] > weak.color.0[3]);
+        assert_eq!(list.legend, [(chain, "force chains: thickest = 9 N".to_owned())]);
+    }
+}
+
+#[test]
+fn bodies_that_are_stepped_have_a_diamond() {
+    let (scene, mut frame) = (furnished_box(), frame());
+    frame.bodies[0].contact = ContactState::Stepped;
+    let list = build_draw_list(&ViewInput {
+        frame: Some(&frame),
+        overlays: OverlaySet::from_ids(["states"]),
+        ..ViewInput::new(&scene, Camera::default(), viewport())
+    });
+    let shapes: Vec<_> = list.points.iter().map(|point| point.shape).collect();
+    assert!(shapes.ends_with(&[PointShape::Diamond, PointShape::Square, PointShape::Ring]), "{shapes:?}");
 }
 
 #[test]

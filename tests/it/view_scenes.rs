@@ -1,7 +1,7 @@
 //! Scenes that the tests of views and pictures share, from the plain types.
 
 use glam::{DVec3, dvec3};
-use polyscene::record::{BodyFrame, EventRow, Frame};
+use polyscene::record::{BodyFrame, ContactFrame, EventRow, Frame};
 use polyscene::scene::{Body, Force, ForceKind, Map, Motion, NodeKey, Scene, Shape, SimParams};
 use polyscene::sim::{BodyRef, ContactState, Event, EventKind, Tiling};
 use std::sync::Arc;
@@ -89,6 +89,10 @@ pub fn force(key: u64, kind: ForceKind) -> Force {
     Force { key: NodeKey(key), id, label: id.to_string(), name: None, hidden: false, locked: false, kind }
 }
 
+pub fn pressed(keys: [u64; 2], ends: [DVec3; 2], force: f64) -> ContactFrame {
+    ContactFrame { keys: keys.map(NodeKey), ends, force }
+}
+
 /// A frame with the furnished box's balls moved on, one impact, and a few tiles.
 pub fn frame() -> Frame {
     let now = |key, position, velocity: DVec3, contact| BodyFrame {
@@ -132,6 +136,10 @@ pub fn frame() -> Frame {
             now(23, dvec3(8.0, 0.7, 8.0), dvec3(2.0, 0.0, 0.0), ContactState::Slide),
         ],
         events: vec![Arc::new(row)],
+        contacts: vec![
+            pressed([22, 5], [dvec3(2.0, 0.5, 1.0), dvec3(2.0, 0.0, 1.0)], 9.0),
+            pressed([23, 22], [dvec3(8.0, 0.7, 8.0), dvec3(2.0, 0.5, 1.0)], 1.0),
+        ],
         tiling: Arc::new(Tiling {
             tile_size: DVec3::ONE,
             tiles: [10; 3],

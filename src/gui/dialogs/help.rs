@@ -13,7 +13,7 @@ pub enum HelpPage {
     About,
 }
 
-const WINDOW: [(&str, &str); 7] = [
+const WINDOW: [(&str, &str); 8] = [
     (
         "Scene",
         "Map, simulation, forces and bodies. Click selects, Ctrl adds, Shift takes a range; double click renames. The eye hides, the lock protects.",
@@ -28,7 +28,11 @@ const WINDOW: [(&str, &str); 7] = [
     ),
     (
         "Transport",
-        "Step by Δt, or event by event inside a Δt. Δt only says where to look: events and states are the same for every Δt.",
+        "Step by Δt, or event by event inside a Δt. Δt only says where to look: events and states are the same for every Δt. Where playing falls behind, the button beside the speeds says by how much, what the time goes to, and what helps.",
+    ),
+    (
+        "Heaps",
+        "Bodies that touch too often for single events are stepped together until they come to rest: the events “dense” and “group rest” say how many. The status bar counts them, diamonds mark them in views and tree, and the overlay Force chains shows what presses on what.",
     ),
     (
         "Editing while it runs",

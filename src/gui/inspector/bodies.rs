@@ -209,8 +209,7 @@ fn motion(ui: &mut Ui, now: &BodyFrame) {
             }
         }
         row(ui, ["Kinetic energy", ""], significant(now.kinetic, 8), "J", "½ m v²");
-        let help = "flight, rest, or slide along a surface";
-        row(ui, ["Contact", ""], now.contact.name().to_owned(), "", help);
+        row(ui, ["Contact", ""], now.contact.name().to_owned(), "", now.contact.meaning());
     });
 }
 

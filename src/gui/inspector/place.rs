@@ -122,7 +122,11 @@ fn param_row(ui: &mut Ui, context: &AppContext<'_>, scene: &Scene, param: &Param
     let default = (param.get)(&SimParams::default());
     let help = format!("{}\nDefault: {} {}", param.help, numbers::significant(default, 6), param.unit);
     ui.label(param.label).on_hover_text(&help);
-    let speed = 0.01 * value.abs().max(0.1 * default.abs()).max(1e-12);
+    let speed = match 0.01 * value.abs().max(0.1 * default.abs()) {
+        // One that stands for an automatic value is dragged away from it.
+        0.0 => 1e-4 * param.range.1,
+        speed => speed,
+    };
     let spec = Number {
         name: param.label,
         value: shared([Some(value)]),

@@ -3,13 +3,16 @@
 mod rows;
 
 use egui::{RichText, ScrollArea, TextEdit, Ui};
+use rustc_hash::FxHashMap;
 
 use super::colors::tones;
 use super::context::{AppContext, Message, Shown};
 use super::theme::ROW_HEIGHT;
 use super::widgets::panel_heading;
 use crate::editor::{Action, Command};
+use crate::record::Frame;
 use crate::scene::{BodyChange, Edit, ForceChange, NodeKey};
+use crate::sim::ContactState;
 pub use rows::force_kind;
 use rows::{Group, Row, collect};
 
@@ -24,6 +27,7 @@ pub struct Tree {
     /// The selection that was scrolled to last.
     scrolled_to: Option<NodeKey>,
     known: Known,
+    contacts: Contacts,
 }
 
 /// The rows, made again only when something they depend on has changed.
@@ -31,6 +35,27 @@ pub struct Tree {
 struct Known {
     of: Option<(u64, String, Vec<Group>)>,
     rows: Vec<Row>,
+}
+
+/// Which bodies are in lasting contact or stepped, as one frame has it.
+#[derive(Default)]
+struct Contacts {
+    revision: u64,
+    states: FxHashMap<NodeKey, ContactState>,
+}
+
+impl Contacts {
+    fn refresh(&mut self, frame: &Frame) {
+        if self.revision != frame.revision {
+            let touching = frame.bodies.iter().filter(|body| body.contact != ContactState::Flight);
+            self.states = touching.map(|body| (body.key, body.contact)).collect();
+            self.revision = frame.revision;
+        }
+    }
+
+    fn of(&self, key: NodeKey) -> ContactState {
+        self.states.get(&key).copied().unwrap_or(ContactState::Flight)
+    }
 }
 
 struct Renaming {
@@ -61,6 +86,7 @@ impl Tree {
             return;
         };
         self.refresh(shown);
+        self.contacts.refresh(context.session.frame());
         let rows = std::mem::take(&mut self.known.rows);
         let target = self.row_to_scroll_to(&rows, context);
         let mut area = ScrollArea::vertical().auto_shrink([false, false]).id_salt("tree");

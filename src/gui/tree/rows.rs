@@ -9,6 +9,7 @@ use crate::gui::context::{AppContext, Message, Shown, force_name};
 use crate::gui::theme::ROW_HEIGHT;
 use crate::gui::{icons, menu, numbers, widgets};
 use crate::scene::{Body, BodyChange, Edit, Force, ForceChange, ForceKind, NodeKey, Scene, Shape};
+use crate::sim::ContactState;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Group {
@@ -166,6 +167,8 @@ impl Tree {
                 color32(color).gamma_multiply(faded),
             );
         }
+        let contact = self.contacts.of(key);
+        paint_contact(ui, context, pos2(rect.left() + 12.0, rect.center().y), contact);
         let name_rect = Rect::from_min_max(pos2(rect.left() + 40.0, rect.top()), rect.max);
         if self.renaming.as_ref().is_some_and(|renaming| renaming.key == key) {
             let builder = egui::UiBuilder::new().max_rect(name_rect);
@@ -177,6 +180,10 @@ impl Tree {
         }
         mark_buttons(ui, rect, context, shown, key, looks, response.contains_pointer());
         response.context_menu(|ui| context_menu(ui, context));
+        if contact != ContactState::Flight {
+            let (state, meaning) = (contact.name(), contact.meaning());
+            response.clone().on_hover_text(format!("{}, {state}: {meaning}", looks.name));
+        }
         if response.clicked() {
             self.click(ui, context, rows, key);
         }
@@ -237,6 +244,28 @@ impl Chip {
             Self::Ring => drop(painter.circle_stroke(center, 4.0, egui::Stroke::new(2.0, color))),
             Self::Plate => polygon([(-3.0, -4.0), (6.0, -4.0), (3.0, 4.0), (-6.0, 4.0)]),
             Self::Diamond => polygon([(0.0, -5.5), (5.5, 0.0), (0.0, 5.5), (-5.5, 0.0)]),
+        }
+    }
+}
+
+/// The mark that the views have for a body in contact: square at rest, ring sliding, diamond stepped.
+fn paint_contact(ui: &Ui, context: &AppContext<'_>, center: egui::Pos2, contact: ContactState) {
+    let (painter, palette) = (ui.painter(), context.palette());
+    match contact {
+        ContactState::Flight => {}
+        ContactState::Rest => {
+            let square = Rect::from_center_size(center, vec2(6.0, 6.0));
+            painter.rect_filled(square, 0.0, color32(palette.rest));
+        }
+        ContactState::Slide => {
+            let stroke = egui::Stroke::new(1.5, color32(palette.slide));
+            painter.circle_stroke(center, 3.0, stroke);
+        }
+        ContactState::Stepped => {
+            let corners = [vec2(0.0, -4.0), vec2(4.0, 0.0), vec2(0.0, 4.0), vec2(-4.0, 0.0)];
+            let corners = corners.map(|corner| center + corner).to_vec();
+            let color = color32(palette.stepped);
+            painter.add(egui::Shape::convex_polygon(corners, color, egui::Stroke::NONE));
         }
     }
 }

@@ -107,6 +107,14 @@ impl Clone for Work {
     }
 }
 
+/// Two bodies that came to rest in contact.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::sim) struct Held {
+    pub pair: Pair,
+    /// Force between them in the last step, N.
+    pub force: f64,
+}
+
 /// All of it. There is none where a scene can have no groups.
 #[derive(Clone, Debug)]
 pub(in crate::sim) struct Dense {
@@ -124,6 +132,10 @@ pub(in crate::sim) struct Dense {
     pub listed_since: f64,
     /// Whether members were added or taken since.
     pub is_list_stale: bool,
+    /// Since when there have been members without a break, s.
+    pub stepped_since: f64,
+    /// Contacts of what lies still.
+    pub held: Vec<Held>,
     /// Bodies that join at the next step.
     pub waiting: Vec<u32>,
     /// The earliest end of a member's step, s; infinite without members.
@@ -144,6 +156,8 @@ impl Dense {
             epoch: 0,
             listed_since: 0.0,
             is_list_stale: false,
+            stepped_since: 0.0,
+            held: Vec::new(),
             waiting: Vec::new(),
             next: f64::INFINITY,
             last_frozen: 0,

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::data::{Dense, Member, Role};
 use super::tolerance::SAME_COMPONENT;
+use super::view::forget_forces;
 use crate::sim::body::BodyId;
 use crate::sim::geometry::gap_of;
 use crate::sim::model::Model;
@@ -52,6 +53,10 @@ pub(in crate::sim) fn component(
 
 /// Makes members of bodies that were none: their contacts are the group's from now on.
 pub(super) fn take_in(state: &mut State, dense: &mut Dense, bodies: &[u32], time: f64, group: u64) {
+    if dense.members.is_empty() {
+        dense.stepped_since = time;
+    }
+    let frozen = dense.frozen;
     for body in bodies {
         if matches!(dense.role(*body), Role::Frozen(_)) {
             dense.frozen -= 1;
@@ -82,6 +87,9 @@ pub(super) fn take_in(state: &mut State, dense: &mut Dense, bodies: &[u32], time
         dense.roles[*body as usize] = Role::Member(u32::MAX);
     }
     dense.renumber();
+    if dense.frozen < frozen {
+        forget_forces(dense);
+    }
 }
 
 /// The bodies of a component at rest.

@@ -9,7 +9,7 @@
 //! `data` is what is stored, `stepped` what a step works on; `activity` decides who enters, `membership` takes them in;
 //! `list` keeps who is near whom, found by `cells`, and `components` who goes together; `contact` makes the bounds of a
 //! step, `sweep` solves them, `group_step` does all that for the bodies that are due, and `rest` finds out who lies
-//! still or has left.
+//! still or has left. `view` is what can be seen of it.
 
 mod activity;
 mod cells;
@@ -24,6 +24,7 @@ mod rest;
 mod stepped;
 mod sweep;
 mod tolerance;
+mod view;
 
 pub(super) use activity::{least_crowd, note_lossy, note_work};
 pub(super) use clock::step_length;
@@ -31,3 +32,4 @@ pub(super) use data::{Dense, Role};
 pub(super) use group_step::{enter, next_step, reach, step, wake_all};
 pub(super) use membership::component;
 pub(super) use tolerance::LARGE_ISLAND;
+pub(super) use view::{contact_forces, stepped_bodies};

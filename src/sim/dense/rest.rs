@@ -6,6 +6,7 @@ use super::data::{Component, Dense, Role};
 use super::membership::{Left, release};
 use super::stepped::FIXED;
 use super::tolerance::{IDLE_STEPS, STILL, STILL_ENERGY, STILL_STEPS};
+use super::view::keep_forces;
 use crate::sim::body::BodyId;
 use crate::sim::books::potential_of;
 use crate::sim::event::{Event, EventKind};
@@ -91,6 +92,7 @@ pub(super) fn freeze(model: &Model, state: &mut State, dense: &mut Dense, bodies
     dense.last_frozen += 1;
     let number = dense.last_frozen;
     release(dense, bodies, Role::Frozen(number));
+    keep_forces(dense, number);
     record_group(model, state, EventKind::GroupRest, bodies, group, time);
 }
 

@@ -2,6 +2,7 @@
 
 mod bounds;
 mod contacts;
+mod force_chains;
 mod forces;
 mod grid;
 pub(super) mod highlight;
@@ -72,6 +73,13 @@ pub const OVERLAYS: &[Overlay] = &[
         add: forces::add,
     },
     Overlay {
+        id: "chains",
+        label: "Force chains",
+        help: "What presses on what in heaps that are stepped or came to rest so: the thicker, the larger the force.",
+        default_on: false,
+        add: force_chains::add,
+    },
+    Overlay {
         id: "boxes",
         label: "Bounding boxes",
         help: "The axis-aligned box around each body.",
@@ -94,8 +102,8 @@ pub const OVERLAYS: &[Overlay] = &[
     },
     Overlay {
         id: "states",
-        label: "Rest and slide",
-        help: "A square on each body at rest, a ring on each that slides.",
+        label: "Rest, slide, stepped",
+        help: "A square on each body at rest, a ring on each that slides, a diamond on each that is stepped.",
         default_on: true,
         add: states::add,
     },
