@@ -165,7 +165,7 @@ fn frozen(balls: usize) -> (Heap, Scene, Simulation) {
 fn a_ball_dropped_on_a_frozen_heap_wakes_it() {
     let (heap, mut scene, mut sim) = frozen(30);
     let middle = 2.0 + 0.5 * heap.width();
-    let mut ball = ball(99, dvec3(middle, 6.0, middle), DVec3::ZERO).radius(RADIUS).bounce(0.5);
+    let mut ball = ball(99, dvec3(middle, 3.5, middle), DVec3::ZERO).radius(RADIUS).bounce(0.5);
     ball.key = NodeKey(777_777);
     scene = scene.body(ball.clone());
     sim.apply(&SimEdit::AddBody(Box::new(ball))).expect("it is added");
