@@ -182,12 +182,15 @@ fn sieve(model: &Model, state: &State, others: &mut Vec<u32>, body: u32, time: f
     // First as if all were as large as the largest, for that needs to know only where they fly.
     let (least, largest) = model.bodies.range_of_radii();
     let reach = radius + largest;
-    keep(others, |other| !predict::surely_pass(&segment, &state.segments[other as usize], reach, near));
+    // Of stepped bodies the present flight tells nothing: it ends with the step.
+    let stepped = state.dense.as_deref().filter(|dense| !dense.members.is_empty());
+    let is_stepped = |other: u32| stepped.is_some_and(|dense| dense.is_member(other));
+    let passes = |other: u32, reach: f64| {
+        predict::surely_pass(&segment, &state.segments[other as usize], reach, near) && !is_stepped(other)
+    };
+    keep(others, |other| !passes(other, reach));
     if least < largest {
-        keep(others, |other| {
-            let reach = radius + model.radius(other);
-            !predict::surely_pass(&segment, &state.segments[other as usize], reach, near)
-        });
+        keep(others, |other| !passes(other, radius + model.radius(other)));
     }
     looked_at - others.len()
 }
@@ -285,8 +288,10 @@ fn is_stepped(state: &State, pair: Pair) -> bool {
 fn predict_reach(model: &Model, state: &mut State, pair: Pair, time: f64) {
     let Some((body, member)) = outsider(state, pair) else { return };
     let Some(met) = reach_of(model, state, body, member, time) else { return };
+    // Not before it is in the tiles of the other for certain: when it got there is not to matter.
+    let Some(near) = touch_of(model, state, body, member, OUTER, time) else { return };
     let Some(epoch) = state.dense.as_ref().map(|dense| dense.epoch) else { return };
-    let soon = (met - 2.0 * model.dense_step).max(time);
+    let soon = (met - 2.0 * model.dense_step).max(near).max(time);
     let (kind, b) = (Kind::Reach, BodyId::of_dynamic(member));
     let stamp_a = state.stamps[body as usize];
     state.queue.push(Predicted { time: soon, kind, a: body, b, stamp_a, stamp_b: epoch });
@@ -302,19 +307,30 @@ fn outsider(state: &State, pair: Pair) -> Option<(u32, u32)> {
     }
 }
 
+/// A stepped body is registered in the tiles of a ball that is larger than the one in which it stays by as many times its
+/// margin.
+pub(super) const OUTER: f64 = 2.0;
+
 /// When a body on its present segment touches the ball in which a stepped one stays; `time` if it is in it already.
 pub(super) fn reach_of(model: &Model, state: &State, body: u32, member: u32, time: f64) -> Option<f64> {
+    touch_of(model, state, body, member, 1.0, time)
+}
+
+/// The same for a ball with so many margins.
+fn touch_of(model: &Model, state: &State, body: u32, member: u32, margins: f64, time: f64) -> Option<f64> {
     let dense = state.dense.as_ref()?;
     let Role::Member(slot) = dense.role(member) else { return None };
     let member = &dense.members[slot as usize];
     let segment = Segment::resting(member.listed_at);
-    let radius = model.radius(member.body) + member.margin;
+    let radius = model.radius(member.body) + margins * member.margin;
     let place = Target::Sphere(Ball { path: Path { segment: &segment, series: None }, radius });
     let ball = ball(model, state, body);
     if predict::gap(ball, place, time).distance <= 0.0 {
         return Some(time);
     }
-    predict::first_contact(ball, place, f64::NEG_INFINITY).map(|met| met.max(time))
+    // It may have been there before, earlier on this segment.
+    let first = predict::first_contact(ball, place, f64::NEG_INFINITY)?;
+    if first >= time { Some(first) } else { predict::first_contact(ball, place, time) }
 }
 
 /// Predicts again what touches and neither meets nor lasts: from when the motion that is left, if any, has brought

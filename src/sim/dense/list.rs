@@ -9,7 +9,7 @@ use super::stepped::FIXED;
 use super::tolerance::{OLDEST_LIST, SKIN, SKIN_STEPS};
 use crate::sim::body::BodyId;
 use crate::sim::model::Model;
-use crate::sim::neighbours::{register_within, within};
+use crate::sim::neighbours::{OUTER, register_within, within};
 use crate::sim::pair::Pair;
 use crate::sim::state::State;
 
@@ -55,7 +55,7 @@ fn place_members(model: &Model, state: &mut State, dense: &mut Dense, time: f64)
         member.listed_at = x;
         member.margin = skin.max(member.widened);
         member.widened = 0.0;
-        register_within(model, state, member.body, x, radius + member.margin);
+        register_within(model, state, member.body, x, radius + OUTER * member.margin);
     }
 }
 
@@ -91,7 +91,8 @@ fn near_pairs(model: &Model, state: &State, dense: &Dense, pairs: &mut Vec<Liste
     for (slot, member) in (0..).zip(&dense.members) {
         let reach = model.radius(member.body) + member.margin;
         let is_wanted = |body: u32| !dense.is_member(body);
-        within(model, state, member.listed_at, reach, is_wanted, &mut found);
+        let outer = model.radius(member.body) + OUTER * member.margin;
+        within(model, state, member.listed_at, outer, is_wanted, &mut found);
         for other in found.drain(..) {
             let role = other.dynamic().map(|body| dense.role(body));
             match role {
