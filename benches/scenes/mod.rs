@@ -96,21 +96,7 @@ fn scene(size: f64, tiles: u32, bodies: Vec<Body>) -> Scene {
 }
 
 fn body(id: i64, position: DVec3, motion: Motion, radius: f64) -> Body {
-    Body {
-        key: NodeKey(id.unsigned_abs()),
-        id,
-        label: id.to_string(),
-        name: None,
-        color: None,
-        hidden: false,
-        locked: false,
-        position,
-        rotation: DVec3::ZERO,
-        bounce: 1.0,
-        material: None,
-        motion,
-        shape: Shape::Sphere { radius },
-    }
+    Body::new(id, position, motion, Shape::Sphere { radius })
 }
 
 fn walls(corner: DVec3, size: f64) -> Vec<Body> {

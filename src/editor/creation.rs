@@ -77,20 +77,11 @@ fn plane(scene: &Scene) -> Body {
 }
 
 fn blank(scene: &Scene, shape: Shape) -> Body {
+    let id = scene.bodies.iter().map(|body| body.id).max().unwrap_or(0).saturating_add(1);
     Body {
         key: NodeKey::default(),
-        id: scene.bodies.iter().map(|body| body.id).max().unwrap_or(0).saturating_add(1),
         label: String::new(),
-        name: None,
-        color: None,
-        hidden: false,
-        locked: false,
-        position: DVec3::ZERO,
-        rotation: DVec3::ZERO,
-        bounce: 1.0,
-        material: None,
-        motion: Motion::Static,
-        shape,
+        ..Body::new(id, DVec3::ZERO, Motion::Static, shape)
     }
 }
 

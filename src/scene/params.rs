@@ -113,7 +113,8 @@ pub const PARAMS: &[ParamInfo] = &[
         range: (1e-9, 1.0),
         help: "A body whose centre comes this near to a point attractor is turned back on its line with \
                its energy kept, the limit of ever thinner ellipses. One whose orbit stays within twice this \
-               is captured, and within a hundred times this if air or other bodies take its energy. \
+               is captured, and within a hundred times this, or a tenth of its own radius, if air or other bodies \
+               take its energy. \
                Smaller needs more steps near the centre and loses digits to the potential's depth.",
         get: |p| p.core_radius,
         set: |p, v| p.core_radius = v,

@@ -79,6 +79,26 @@ pub struct Body {
 }
 
 impl Body {
+    /// A body as scenes made by code have them: named by its UserID, which is its key too, Bounce 1, not turned, and
+    /// without a colour or a material. Give the rest by `Body { bounce: 0.5, ..Body::new(…) }`.
+    pub fn new(id: i64, position: DVec3, motion: Motion, shape: Shape) -> Self {
+        Self {
+            key: NodeKey(id.unsigned_abs()),
+            id,
+            label: id.to_string(),
+            name: None,
+            color: None,
+            hidden: false,
+            locked: false,
+            position,
+            rotation: DVec3::ZERO,
+            bounce: 1.0,
+            material: None,
+            motion,
+            shape,
+        }
+    }
+
     pub fn is_dynamic(&self) -> bool {
         matches!(self.motion, Motion::Dynamic { .. })
     }

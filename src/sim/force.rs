@@ -69,21 +69,9 @@ impl Subject<'_> {
 ///
 /// # use polyscene::scene::{Body, Motion, NodeKey, Shape};
 /// let mut scene = Document::new(NumberStyle::Point).scene().cloned().unwrap();
-/// scene.bodies.push(Body {
-///     key: NodeKey(1_000_000),
-///     id: 1,
-///     label: "1".into(),
-///     name: None,
-///     color: None,
-///     hidden: false,
-///     locked: false,
-///     position: DVec3::new(1.0, 0.0, 0.0),
-///     rotation: DVec3::ZERO,
-///     bounce: 1.0,
-///     material: Some("iron".into()),
-///     motion: Motion::Dynamic { mass: 1.0, velocity: DVec3::ZERO },
-///     shape: Shape::Sphere { radius: 0.1 },
-/// });
+/// let motion = Motion::Dynamic { mass: 1.0, velocity: DVec3::ZERO };
+/// let ball = Body::new(1, DVec3::X, motion, Shape::Sphere { radius: 0.1 });
+/// scene.bodies.push(Body { key: NodeKey(1_000_000), material: Some("iron".into()), ..ball });
 /// let mut simulation = Simulation::new(&scene).unwrap();
 /// simulation.add_force(Arc::new(Magnet { stiffness: 4.0 }));
 /// simulation.begin(std::f64::consts::PI); // one period of ω = √(k/m) = 2 rad/s

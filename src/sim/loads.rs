@@ -12,7 +12,8 @@ use glam::DVec3;
 
 use super::link::{Link, Solved};
 use super::tolerance::{
-    ENTERING, HELD_ALONE, LEFT_OVER, LOADED, MOST_EXCHANGES, MOST_STEPS, PROJECTED, PROXIMAL, STALE,
+    ENTERING, HELD_ALONE, LEFT_OVER, LOADED, MOST_EXCHANGES, MOST_STEPS, NONE_BESIDE, PROJECTED, PROXIMAL,
+    STALE,
 };
 
 /// Loads of one problem, from which that of the next one like it starts: of the same links, a little later.
@@ -51,7 +52,7 @@ impl Loads {
             return None;
         }
         for ((w, found), size) in motion.iter_mut().zip(&at.motion).zip(&at.sizes) {
-            *w = if found.length() <= LEFT_OVER * size { DVec3::ZERO } else { *found };
+            *w = if found.length() <= LEFT_OVER * size.max(at.least) { DVec3::ZERO } else { *found };
         }
         Some(Solved { multipliers: self.multipliers.clone(), sizes: at.sizes })
     }
@@ -160,12 +161,15 @@ struct Under {
     motion: Vec<DVec3>,
     /// Length of all that each body's motion is the sum of.
     sizes: Vec<f64>,
+    /// A motion shorter than this is none beside the others.
+    least: f64,
 }
 
 impl Under {
     fn of(problem: &Problem<'_>, multipliers: &[f64], free: &[DVec3]) -> Self {
         let mut motion = free.to_vec();
         let mut sizes: Vec<f64> = free.iter().map(|w| w.length()).collect();
+        let least = NONE_BESIDE * problem.largest(free);
         for (link, load) in problem.links.iter().zip(multipliers).filter(|(_, load)| **load != 0.0) {
             link.push(&mut motion, problem.inverse_mass, *load);
             sizes[link.a] += load.abs() * problem.inverse_mass[link.a];
@@ -173,7 +177,7 @@ impl Under {
                 sizes[b] += load.abs() * problem.inverse_mass[b];
             }
         }
-        Self { motion, sizes }
+        Self { motion, sizes, least }
     }
 
     fn excess(&self, problem: &Problem<'_>, k: usize) -> f64 {
@@ -181,7 +185,7 @@ impl Under {
     }
 
     fn tolerance(&self, problem: &Problem<'_>, k: usize) -> f64 {
-        ENTERING * problem.links[k].size_of(&self.sizes)
+        ENTERING * problem.links[k].size_of(&self.sizes).max(self.least)
     }
 
     fn oversteps(&self, problem: &Problem<'_>, k: usize) -> bool {

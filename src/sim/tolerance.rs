@@ -132,6 +132,11 @@ pub(super) const DEPENDENT: f64 = 1e-13;
 /// What is left of a motion below this part of what was taken from it is rounding, and would creep.
 pub(super) const LEFT_OVER: f64 = 64.0 * f64::EPSILON;
 
+/// A motion below this part of the largest of a problem is none. Without it the loads on bodies that lie still are
+/// improved until they are denormal, where scaled masses no longer give scaled bits; larger, soft contacts beside fast
+/// ones are lost.
+pub(super) const NONE_BESIDE: f64 = f64::EPSILON;
+
 /// Normals of which less than this part is left beside others are of one direction with them: what one carries, the
 /// others could. Smaller, a ball beside a seam presses on one of two plates only; larger, a heavy ball on a light one,
 /// of which the root of the mass ratio is left, seems to press on the floor.

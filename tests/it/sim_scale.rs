@@ -132,7 +132,7 @@ fn scaled_scenes_give_the_scaled_bits() {
     let mut wrong = Vec::new();
     for name in scenes() {
         let scene = load(&name);
-        let until = 1.5;
+        let until = 2.0;
         let plain = run(&scene, until, Sampling::Every(until));
         for scale in scales() {
             let until = until * scale.time;

@@ -17,21 +17,7 @@ pub fn empty() -> Scene {
 }
 
 pub fn body(key: u64, position: DVec3, motion: Motion, shape: Shape) -> Body {
-    Body {
-        key: NodeKey(key),
-        id: key as i64,
-        label: key.to_string(),
-        name: None,
-        color: None,
-        hidden: false,
-        locked: false,
-        position,
-        rotation: DVec3::ZERO,
-        bounce: 1.0,
-        material: None,
-        motion,
-        shape,
-    }
+    Body::new(key as i64, position, motion, shape)
 }
 
 pub fn ball(key: u64, position: DVec3, radius: f64) -> Body {

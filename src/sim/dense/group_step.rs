@@ -1,5 +1,7 @@
 //! The step of stepped groups: the components that are due are bounded, solved, booked and sent on.
 
+use std::collections::BTreeSet;
+
 use glam::DVec3;
 
 use super::clock::step_end;
@@ -234,7 +236,7 @@ fn reached_frozen(
     components: &[&mut Component],
     time: f64,
 ) -> Vec<u32> {
-    let mut reached = Vec::new();
+    let mut numbers = BTreeSet::new();
     for index in components.iter().flat_map(|component| &component.with_frozen) {
         let listed = &dense.pairs[*index as usize];
         let member = &dense.members[listed.slots[0] as usize];
@@ -246,12 +248,10 @@ fn reached_frozen(
             (x - state.segments[other as usize].x).length() - model.radius(member.body) - model.radius(other);
         let way = model.dense_step * (v.length() + model.dense_step * path.segment.a.length());
         if gap <= 2.0 * way {
-            reached.extend(frozen_with(dense, number));
+            numbers.insert(number);
         }
     }
-    reached.sort_unstable();
-    reached.dedup();
-    reached
+    if numbers.is_empty() { Vec::new() } else { frozen_with(dense, &numbers) }
 }
 
 /// The bodies of a component at a time, with u for steps as long as the last.

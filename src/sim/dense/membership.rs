@@ -1,5 +1,7 @@
 //! Who is stepped: components are found, taken in, frozen and woken.
 
+use std::collections::BTreeSet;
+
 use glam::DVec3;
 
 use super::data::{Dense, Member, Role};
@@ -92,9 +94,10 @@ pub(super) fn take_in(state: &mut State, dense: &mut Dense, bodies: &[u32], time
     }
 }
 
-/// The bodies of a component at rest.
-pub(super) fn frozen_with(dense: &Dense, number: u32) -> Vec<u32> {
-    (0..).zip(&dense.roles).filter(|(_, role)| **role == Role::Frozen(number)).map(|(body, _)| body).collect()
+/// The bodies of components at rest, by the numbers of these.
+pub(super) fn frozen_with(dense: &Dense, numbers: &BTreeSet<u32>) -> Vec<u32> {
+    let is_its = |role: &Role| matches!(role, Role::Frozen(number) if numbers.contains(number));
+    (0..).zip(&dense.roles).filter(|(_, role)| is_its(role)).map(|(body, _)| body).collect()
 }
 
 /// Lets members go, which have these places among them.

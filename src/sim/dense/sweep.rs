@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::stepped::{Contact, Stepped};
 use super::tolerance::{
-    BUDGET, COARSEST, FINEST, FINEST_OF_DEEP, GAIN, MOST_SWEEPS, SHARE_OF_BUDGET, SHARE_OF_WAY,
+    BUDGET, COARSEST, FINEST, FINEST_OF_DEEP, GAIN, GROSS_GAIN, MOST_SWEEPS, SHARE_OF_BUDGET, SHARE_OF_WAY,
     SWEEPS_AGAINST_GAIN,
 };
 
@@ -82,8 +82,10 @@ pub(super) fn solve(
             continue;
         }
         let (loss, sinks) = system.judge(contacts, h);
-        solution.has_converged = !sinks;
-        if extra >= SWEEPS_AGAINST_GAIN || (!sinks && -loss <= allowed) {
+        let gains_grossly = -loss > GROSS_GAIN * allowed;
+        solution.has_converged = !sinks && !gains_grossly;
+        let is_tired = extra >= SWEEPS_AGAINST_GAIN && !gains_grossly;
+        if is_tired || (!sinks && -loss <= allowed) {
             break loss;
         }
         system.go_on();
@@ -255,7 +257,7 @@ impl Tolerance {
         Self { way: SHARE_OF_WAY * h * mean.sqrt(), h }
     }
 
-    /// min(clamp(0.1 h u, 2e-6 r, 1e-4 r), max((8e-4 r + g)/4, 2e-7 r)), m.
+    /// min(clamp(0.1 h u, 2e-6 r, 1e-4 r), max((6e-4 r + g)/4, 2e-7 r)), m.
     fn of_contact(&self, contact: &Contact) -> f64 {
         let (finest, coarsest) = (FINEST * contact.radius, COARSEST * contact.radius);
         let left = SHARE_OF_BUDGET * (BUDGET * contact.radius + contact.gap);

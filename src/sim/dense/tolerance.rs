@@ -74,7 +74,11 @@ pub(super) const MOST_SWEEPS: usize = 400;
 /// More sweeps follow while a component gains more than this part of m·g·r of its smallest body, but no more than so
 /// many.
 pub(super) const GAIN: f64 = 1e-5;
-pub(super) const SWEEPS_AGAINST_GAIN: usize = 50;
+pub(super) const SWEEPS_AGAINST_GAIN: usize = 100;
+
+/// A step that gains more than so many times what is allowed has not converged, and is halved in the end: after a hard
+/// blow the impulses are so large that what little the sweeps leave counts.
+pub(super) const GROSS_GAIN: f64 = 100.0;
 
 // The list of pairs.
 

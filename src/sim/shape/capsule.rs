@@ -74,21 +74,9 @@ mod tests {
                 acceleration: DVec3::new(0.0, -GRAVITY, 0.0),
             },
         });
-        scene.bodies.push(Body {
-            key: NodeKey(1_000_000),
-            id: 1,
-            label: "1".into(),
-            name: None,
-            color: None,
-            hidden: false,
-            locked: false,
-            position: MIDDLE + offset,
-            rotation: DVec3::ZERO,
-            bounce,
-            material: None,
-            motion: Motion::Dynamic { mass: 2.0, velocity: DVec3::ZERO },
-            shape: crate::scene::Shape::Sphere { radius: RADIUS },
-        });
+        let motion = Motion::Dynamic { mass: 2.0, velocity: DVec3::ZERO };
+        let ball = Body::new(1, MIDDLE + offset, motion, crate::scene::Shape::Sphere { radius: RADIUS });
+        scene.bodies.push(Body { key: NodeKey(1_000_000), bounce, ..ball });
         scene
     }
 

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::case::{Case, Demand, Source, at_most, file, reported};
 use super::monitor::Monitor;
 use super::trial::{Stop, Trial};
-use crate::scene::{Body, Map, Motion, NodeKey, Scene, Shape, SimParams};
+use crate::scene::{Body, Map, Motion, Scene, Shape, SimParams};
 use crate::sim::BodyRef;
 use crate::study::Random;
 
@@ -151,19 +151,5 @@ fn walls(side: f64) -> Vec<Body> {
 }
 
 fn body(id: i64, position: DVec3, rotation: DVec3, motion: Motion, shape: Shape) -> Body {
-    Body {
-        key: NodeKey(id as u64),
-        id,
-        label: id.to_string(),
-        name: None,
-        color: None,
-        hidden: false,
-        locked: false,
-        position,
-        rotation,
-        bounce: 1.0,
-        material: None,
-        motion,
-        shape,
-    }
+    Body { rotation, ..Body::new(id, position, motion, shape) }
 }

@@ -143,21 +143,7 @@ impl Builder {
     }
 
     fn body(&self, id: i64, position: DVec3, motion: Motion, shape: Shape) -> Body {
-        Body {
-            key: NodeKey(id.unsigned_abs()),
-            id,
-            label: id.to_string(),
-            name: None,
-            color: None,
-            hidden: false,
-            locked: false,
-            position,
-            rotation: DVec3::ZERO,
-            bounce: self.bounce,
-            material: None,
-            motion,
-            shape,
-        }
+        Body { bounce: self.bounce, ..Body::new(id, position, motion, shape) }
     }
 }
 

@@ -139,21 +139,7 @@ impl Shaped for Body {
 }
 
 fn body(id: i64, position: DVec3, rotation: DVec3, motion: Motion, shape: Shape) -> Body {
-    Body {
-        key: NodeKey(id as u64),
-        id,
-        label: id.to_string(),
-        name: None,
-        color: None,
-        hidden: false,
-        locked: false,
-        position,
-        rotation,
-        bounce: 1.0,
-        material: None,
-        motion,
-        shape,
-    }
+    Body { rotation, ..Body::new(id, position, motion, shape) }
 }
 
 /// The scene of the thesis's appendix 2, transcribed apart from the file of that name.
