@@ -6,6 +6,7 @@
 use glam::DVec3;
 
 use super::body::BodyId;
+use super::dense::has_been_struck;
 use super::event::{Event, EventKind};
 use super::force::Law;
 use super::ledger::record;
@@ -62,12 +63,13 @@ fn reach(model: &Model, body: u32) -> f64 {
     (BOUND_DISTURBED * model.params.core_radius).max(BOUND_OF_RADIUS * model.radius(body))
 }
 
-/// Whether something takes energy from a body that circles an attractor: air, what it lies against, or what it
-/// has hit.
+/// Whether a body that circles an attractor exchanges energy with something else: with air, what it lies against, or
+/// what it has hit.
 fn is_disturbed(model: &Model, state: &State, body: u32) -> bool {
     let reversible = |law: &Law| matches!(law, Law::Point { .. }) || law.is_uniform();
     state.segments[body as usize].constrained
         || state.cascades[body as usize].reference > 0.0
+        || has_been_struck(state, body)
         || !model.forces.iter().all(|force| reversible(&force.law))
 }
 

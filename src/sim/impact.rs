@@ -5,9 +5,7 @@ use glam::DVec3;
 
 use super::capture::free_if_struck;
 use super::contact::Contact;
-use super::dense::{
-    LARGE_ISLAND, Role, component, enter, least_crowd, note_lossy as note_lossy_impact, note_work,
-};
+use super::dense::{LARGE_ISLAND, Role, component, enter, least_crowd, note_impact, note_work};
 use super::event::{Event, EventKind};
 use super::exchange::{exchange, velocity_change};
 use super::fault::Fault;
@@ -39,8 +37,7 @@ pub(super) fn resolve(
     for struck in std::iter::once(&pair).chain(also.iter()) {
         free_struck(model, state, time, *struck);
     }
-    let least = pair.dynamic().filter_map(|body| least_crowd(model, state, body, time)).min();
-    if let Some(least) = least
+    if let Some(least) = least_crowd_of(model, state, pair, gap, time)
         && enter_crowd(model, state, pair, least, time)?
     {
         return Ok(());
@@ -62,12 +59,20 @@ pub(super) fn resolve(
     if is_for_steps(state, &group) {
         return enter(model, state, &group.bodies.ids, time);
     }
-    if group.members.iter().any(|member| member.restitution < 1.0) {
-        note_work(model, state, &group.bodies.ids, time);
-    }
+    note_work(model, state, &group.bodies.ids, time);
     let kind = if collapse(model, state, &mut group) { EventKind::Collapse } else { EventKind::Impact };
     list(model, state, time, &group, kind);
     finish(model, state, time, group)
+}
+
+/// Of how many moving bodies the component of an impact must be to be stepped; `None` if it is not. Of an elastic pair
+/// both must be struck often: a large body among many small ones is, and they are not.
+fn least_crowd_of(model: &Model, state: &State, pair: Pair, gap: &Gap, time: f64) -> Option<usize> {
+    let mut of_each = pair.dynamic().map(|body| least_crowd(model, state, body, time));
+    if restitution_at(model, pair, -gap.rate) < 1.0 {
+        return of_each.flatten().min();
+    }
+    of_each.try_fold(0, |most, least| Some(most.max(least?)))
 }
 
 /// Lets the bodies of an impact be stepped with all that they touch, if so many can move; whether they can.
@@ -142,9 +147,7 @@ fn is_near_rest(model: &Model, pair: Pair, gap: &Gap) -> bool {
 /// Newton's law for two bodies that touch nothing else, which then go on.
 fn bounce(model: &Model, state: &mut State, time: f64, pair: Pair, gap: &Gap) -> Result<(), Fault> {
     note_lossy(model, state, [(pair, -gap.rate)]);
-    if restitution_at(model, pair, -gap.rate) < 1.0 {
-        pair.dynamic().for_each(|body| note_lossy_impact(model, state, body, time));
-    }
+    pair.dynamic().for_each(|body| note_impact(model, state, body, time));
     let impulse = exchange(model, state, time, pair, gap);
     let start = |body: u32, impulse: f64| Start {
         body,
@@ -167,10 +170,8 @@ fn list(model: &Model, state: &mut State, time: f64, group: &Group, kind: EventK
         return;
     }
     state.group += 1;
-    let lossy = group.members.iter().filter(|member| group.is_felt(member) && member.restitution < 1.0);
-    lossy
-        .flat_map(|member| member.pair.dynamic())
-        .for_each(|body| note_lossy_impact(model, state, body, time));
+    let felt = group.members.iter().filter(|member| group.is_felt(member));
+    felt.flat_map(|member| member.pair.dynamic()).for_each(|body| note_impact(model, state, body, time));
     let row = |member: &Member| {
         let event = Event {
             impulse: member.impulse,

@@ -28,9 +28,14 @@ pub(super) fn plan_of(model: &Model) -> Plan {
         left_out.push("rest after bounces: this method lets bodies bounce for ever");
     }
     let lasting_contact = lossy && model.method == Method::Exact;
-    let stepped_groups = lasting_contact && dynamic_bodies > 1;
-    if lasting_contact && !stepped_groups {
+    // Where nothing drives elastic bodies together, they part for good.
+    let is_pressed = lossy || !model.forces.is_empty();
+    if dynamic_bodies < 2 {
         left_out.push("stepped groups: no two moving bodies");
+    } else if model.method != Method::Exact {
+        left_out.push("stepped groups: this method steps all bodies");
+    } else if !is_pressed {
+        left_out.push("stepped groups: nothing presses bodies together or takes their energy");
     }
     Plan {
         dynamic_bodies,
@@ -38,7 +43,7 @@ pub(super) fn plan_of(model: &Model) -> Plan {
         motion: if ballistic { "ballistic" } else { "field" },
         pairs: pairs_of(dynamic_bodies, &statics),
         lasting_contact,
-        stepped_groups,
+        stepped_groups: model.method == Method::Exact && dynamic_bodies > 1 && is_pressed,
         left_out,
     }
 }

@@ -69,6 +69,10 @@ struct WorkReport {
     force_evaluations: u64,
     given_up: u64,
     stale_events: u64,
+    group_steps: u64,
+    group_halvings: u64,
+    group_contacts: u64,
+    group_sweeps: u64,
 }
 
 #[derive(Serialize)]
@@ -117,6 +121,10 @@ impl<'a> Summary<'a> {
                 force_evaluations: counters.force_evaluations,
                 given_up: counters.given_up,
                 stale_events: counters.stale_events,
+                group_steps: counters.steps,
+                group_halvings: counters.halvings,
+                group_contacts: counters.contacts,
+                group_sweeps: counters.sweeps,
             },
             plan: plan_report(sim.plan()),
             warnings,

@@ -3,13 +3,14 @@
 
 use super::data::{Activity, Decaying};
 use super::tolerance::{
-    CROWDED, HALF_LIFE, HALF_LIFE_OF_WORK, MOST_AT_ONE_INSTANT, SMALLEST_CROWD, TOO_MUCH_WORK, WORK_OF_CUBE,
+    CROWDED, HALF_LIFE, HALF_LIFE_OF_WORK, LEAST_STRUCK, MOST_AT_ONE_INSTANT, SMALLEST_CROWD, TOO_MUCH_WORK,
+    WORK_OF_CUBE,
 };
 use crate::sim::model::Model;
 use crate::sim::state::State;
 
-/// Notes a lossy impact of a body at a time: one row of the ledger.
-pub(in crate::sim) fn note_lossy(model: &Model, state: &mut State, body: u32, time: f64) {
+/// Notes an impact of a body at a time: one row of the ledger.
+pub(in crate::sim) fn note_impact(model: &Model, state: &mut State, body: u32, time: f64) {
     if let Some(dense) = &mut state.dense {
         let activity = &mut dense.activity[body as usize];
         activity.impacts.add(1.0, time, HALF_LIFE * model.dense_step);
@@ -20,7 +21,12 @@ pub(in crate::sim) fn note_lossy(model: &Model, state: &mut State, body: u32, ti
     }
 }
 
-/// Notes that lossy bodies were resolved or integrated together.
+/// Whether a body has had an impact.
+pub(in crate::sim) fn has_been_struck(state: &State, body: u32) -> bool {
+    state.dense.as_ref().is_some_and(|dense| dense.activity[body as usize].impacts.sum > 0.0)
+}
+
+/// Notes that bodies were resolved or integrated together.
 pub(in crate::sim) fn note_work(model: &Model, state: &mut State, bodies: &[u32], time: f64) {
     let Some(dense) = &mut state.dense else { return };
     let size = bodies.len() as f64;
@@ -38,7 +44,8 @@ pub(in crate::sim) fn least_crowd(model: &Model, state: &State, body: u32, time:
     if is_stuck || work.at(time, HALF_LIFE_OF_WORK * model.dense_step) >= TOO_MUCH_WORK {
         return Some(2);
     }
-    (impacts.at(time, HALF_LIFE * model.dense_step) >= CROWDED).then_some(SMALLEST_CROWD)
+    let struck = impacts.at(time, HALF_LIFE * model.dense_step);
+    (struck >= LEAST_STRUCK).then(|| (CROWDED / struck).ceil().max(SMALLEST_CROWD) as usize)
 }
 
 impl Decaying {

@@ -14,7 +14,7 @@ use glam::DVec3;
 use super::stepped::{Contact, Near, Stepped};
 use super::tolerance::{LAZY, PARTING, ROOM, SLOWEST_REBOUND};
 use crate::sim::body::BodyId;
-use crate::sim::geometry::{restitution_at, smaller_radius};
+use crate::sim::geometry::restitution_at;
 use crate::sim::model::Model;
 use crate::sim::shape::direction;
 use crate::sim::state::State;
@@ -51,10 +51,12 @@ pub(super) fn contact(
     let Near { pair, listed, a, b } = *near;
     let one = &bodies[a as usize];
     let other = bodies.get(b as usize);
-    let (radius, (normal, gap)) = match other {
-        Some(other) => (one.radius.min(other.radius), between(one, other)),
-        None => (smaller_radius(model, pair), against(model, state, one, pair.other(one.body))),
+    let (normal, gap) = match other {
+        Some(other) => between(one, other),
+        None => against(model, state, one, pair.other(one.body)),
     };
+    // Steps are as long as the smallest body allows, and so is what they leave.
+    let radius = model.bodies.range_of_radii().0;
     let other = other.unwrap_or(&Stepped::FIXED);
     let inverse_mass = one.inverse_mass + other.inverse_mass;
     if inverse_mass == 0.0 {

@@ -20,11 +20,13 @@ use crate::sim::capture::{hold, is_swallowed};
 use crate::sim::event::EventKind;
 use crate::sim::fault::{Fault, fault};
 use crate::sim::force::Law;
+use crate::sim::geometry::{ball, contact_distance, gap_of, target};
 use crate::sim::model::Model;
 use crate::sim::motion::{check, place};
 use crate::sim::neighbours::{predict_all, predict_pair, reach_of};
 use crate::sim::pair::Pair;
 use crate::sim::place::Place;
+use crate::sim::predict;
 use crate::sim::segment::Segment;
 use crate::sim::state::State;
 
@@ -37,14 +39,19 @@ pub(in crate::sim) fn next_step(state: &State) -> f64 {
 /// and are to go on from event to event.
 pub(in crate::sim) fn step(model: &Model, state: &mut State, time: f64) -> Result<Vec<Left>, Fault> {
     with_dense(model, state, time, |state, dense| {
-        let waiting = std::mem::take(&mut dense.waiting);
-        for body in waiting {
-            let bodies = component(model, state, dense, &[body], time);
-            take_in(state, dense, &bodies, time, 0);
-        }
+        take_waiting(model, state, dense, time);
         let left = leave(model, state, dense, time);
         Ok((left, advance(model, state, dense, time)?))
     })
+}
+
+/// Takes in the bodies that wait to join, with all that they touch.
+fn take_waiting(model: &Model, state: &mut State, dense: &mut Dense, time: f64) {
+    let waiting = std::mem::take(&mut dense.waiting);
+    if !waiting.is_empty() {
+        let bodies = component(model, state, dense, &waiting, time);
+        take_in(state, dense, &bodies, time, 0);
+    }
 }
 
 /// Takes in bodies with all that they touch, and lets them go on. It is news unless they join others.
@@ -52,7 +59,7 @@ pub(in crate::sim) fn enter(model: &Model, state: &mut State, seeds: &[u32], tim
     take_over(model, state, seeds, time, true)
 }
 
-/// A body is about to come near a member: it joins at the next step, or now if that is too late.
+/// A body is about to come near a member: it joins at the next step, or now if they touch before that.
 pub(in crate::sim) fn reach(
     model: &Model,
     state: &mut State,
@@ -60,16 +67,25 @@ pub(in crate::sim) fn reach(
     member: u32,
     time: f64,
 ) -> Result<(), Fault> {
-    let met = reach_of(model, state, body, member, time);
-    let Some(dense) = state.dense.as_mut() else { return Ok(()) };
-    let Some(met) = met else { return Ok(()) };
-    if met > dense.next {
-        if !dense.waiting.contains(&body) {
-            dense.waiting.push(body);
-        }
-        return Ok(());
+    let is_near = reach_of(model, state, body, member, time).is_some();
+    let Some(next) = state.dense.as_ref().filter(|_| is_near).map(|dense| dense.next) else { return Ok(()) };
+    if meet_before(model, state, (body, member), time, next) {
+        return take_over(model, state, &[body], time, false);
     }
-    take_over(model, state, &[body], time, false)
+    if let Some(dense) = state.dense.as_mut().filter(|dense| !dense.waiting.contains(&body)) {
+        dense.waiting.push(body);
+    }
+    Ok(())
+}
+
+/// Whether two bodies meet on their present segments before some time. They may touch already, and be searched from
+/// there in vain.
+fn meet_before(model: &Model, state: &State, (body, member): (u32, u32), time: f64, next: f64) -> bool {
+    let pair = Pair::of(body, BodyId::of_dynamic(member));
+    let gap = gap_of(model, state, pair, time);
+    let ball = ball(model, state, pair.first());
+    let met = || predict::first_contact(ball, target(model, state, pair.b), time);
+    gap.distance <= contact_distance(model, pair, gap.point) || met().is_some_and(|met| met <= next)
 }
 
 /// Wakes all that lies still, and steps all that is stepped anew: after an edit.
@@ -109,6 +125,8 @@ fn take_over(model: &Model, state: &mut State, seeds: &[u32], time: f64, is_news
         }
         let group = if is_news { state.group } else { 0 };
         take_in(state, dense, &bodies, time, group);
+        // Who waits was to meet nobody before the next step, but now this one is a step.
+        take_waiting(model, state, dense, time);
         Ok((Vec::new(), advance(model, state, dense, time)?))
     })
     .map(|_| ())

@@ -84,7 +84,7 @@ pub(super) struct Contact {
     pub bound: f64,
     /// 1/m_a + 1/m_b.
     pub inverse_mass: f64,
-    /// Of the smaller body, m.
+    /// The smallest of all bodies, m.
     pub radius: f64,
     /// N·s.
     pub impulse: f64,
