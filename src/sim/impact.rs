@@ -24,7 +24,7 @@ use super::restart::{Start, restart};
 use super::restitution::{Blow, blow, reduced_mass};
 use super::settle::{Settling, settle};
 use super::state::State;
-use super::tolerance::{FALLING, MEMORY};
+use super::tolerance::{FALLING, MEMORY, NEAR_REST};
 
 /// Two bodies touch while closing. `also` are impacts of the same instant, of which those connected with it
 /// are resolved too and taken out.
@@ -136,7 +136,7 @@ fn is_near_rest(model: &Model, pair: Pair, gap: &Gap) -> bool {
     let speed = restitution_at(model, pair, -gap.rate) * -gap.rate;
     let radius = smaller_radius(model, pair);
     let height = (model.params.rest_height * radius).max(touch_tolerance(gap.point, radius));
-    speed * speed <= 4.0 * gap.drive.abs() * height
+    speed * speed <= 2.0 * NEAR_REST * gap.drive.abs() * height
 }
 
 /// Newton's law for two bodies that touch nothing else, which then go on.

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::SegmentError;
 use super::control::{Limits, are_sound};
-use super::plunge::{Way, way_on};
+use super::plunge::{Onward, way_on};
 use super::radau::{RadauStart, radau_step};
 use super::smoothness::drag_of;
 use super::tolerance::{FOR_EVER, INSIDE, LONGEST_STEP};
@@ -122,11 +122,11 @@ fn integrated(
     let column = state.fields.get(body as usize).copied().unwrap_or_default();
     let goes_on = old.step > 0.0 && old.end == time && !old.constrained;
     let from = match way_on(model, state, body, time, start) {
-        Way::Back(step) => {
+        Onward::Back(step) => {
             let (segment, series) = *step;
             return Ok((segment, Some(FieldColumn { series, next_step: segment.step })));
         }
-        Way::On(from) => from,
+        Onward::On(from) => from,
     };
     let start = RadauStart {
         time,

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::advance::{Search, Skip, first_contact as advance};
+use super::advance::{Skip, Span, first_contact as advance};
 use super::gap::{Ball, Gap, snap, snap_pressure, touch_tolerance};
 use crate::sim::shape::{Convex, Near};
 
@@ -22,7 +22,7 @@ pub(super) fn search(
 ) -> Option<f64> {
     let segment = ball.path.segment;
     let acceleration_bound = ball.path.series.map(|_| segment.acceleration_bound);
-    let search = Search { from, until: segment.end, acceleration_bound, slack };
+    let search = Span { from, until: segment.end, acceleration_bound, slack };
     advance(search, |time| gap(ball, &nearest, time), skip)
 }
 
