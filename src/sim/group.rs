@@ -19,14 +19,14 @@ use glam::DVec3;
 
 use super::body::BodyId;
 use super::constraint::enter_none;
-use super::geometry::{BodiesAt, contact_distance, gap_of, restitution_at, surface_of};
+use super::geometry::{BodiesAt, contact_distance, gap_of, larger_radius, restitution_at, surface_of};
 use super::island::Island;
 use super::link::{Link, renumber};
 use super::model::Model;
 use super::nearest::nearest;
 use super::neighbours::near;
 use super::pair::Pair;
-use super::predict::Gap;
+use super::predict::{Gap, touch_tolerance};
 use super::shape::Surface;
 use super::state::State;
 use super::tolerance::{
@@ -112,10 +112,13 @@ impl Group {
         CLOSING_ROUNDING * (speed(member.link.a) + member.link.b.map_or(0.0, speed))
     }
 
-    /// Whether a contact took part in the impact by more than the rounding of its speeds.
-    pub fn is_felt(&self, member: &Member) -> bool {
+    /// Whether a contact took part in the impact by more than the rounding of its speeds, and of places: bodies that touch
+    /// may be a rounding δ apart, and then meet at √(2gδ).
+    pub fn is_felt(&self, model: &Model, member: &Member) -> bool {
         let change = member.impulse * member.link.response(&member.link, &self.bodies.inverse_mass);
-        change > self.rounding(member).max(NO_CHANGE * self.fastest)
+        let apart = touch_tolerance(member.gap.point, larger_radius(model, member.pair));
+        let fall = (1.0 + member.restitution) * (2.0 * member.gap.drive.abs() * apart).sqrt();
+        change > self.rounding(member).max(NO_CHANGE * self.fastest).max(fall)
     }
 
     /// Rounds of reflections until nothing closes; whether closing speeds fell without end, so that the rest was

@@ -163,11 +163,12 @@ fn bounce(model: &Model, state: &mut State, time: f64, pair: Pair, gap: &Gap) ->
 
 /// Lists what a group exchanged, one row for each contact.
 fn list(model: &Model, state: &mut State, time: f64, group: &Group, kind: EventKind) {
-    if !group.members.iter().any(|member| group.is_felt(member)) {
+    if !group.members.iter().any(|member| group.is_felt(model, member)) {
         return;
     }
     state.group += 1;
-    let lossy = group.members.iter().filter(|member| group.is_felt(member) && member.restitution < 1.0);
+    let lossy =
+        group.members.iter().filter(|member| group.is_felt(model, member) && member.restitution < 1.0);
     lossy
         .flat_map(|member| member.pair.dynamic())
         .for_each(|body| note_lossy_impact(model, state, body, time));
@@ -182,7 +183,8 @@ fn list(model: &Model, state: &mut State, time: f64, group: &Group, kind: EventK
         };
         in_id_order(model, event)
     };
-    let mut rows: Vec<Event> = group.members.iter().filter(|member| group.is_felt(member)).map(row).collect();
+    let mut rows: Vec<Event> =
+        group.members.iter().filter(|member| group.is_felt(model, member)).map(row).collect();
     rows.sort_by_key(|row| (rank(model, row.a), row.b.map(|b| rank(model, b))));
     let count = rows.len() as u32;
     for (nth, row) in (1..).zip(rows) {

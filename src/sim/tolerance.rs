@@ -137,6 +137,15 @@ pub(super) const MEMORY: f64 = 1.0 - 1.0 / 256.0;
 /// contact parts and is pressed again, more cost.
 pub(super) const PRESSURE_SAMPLES: u32 = 8;
 
+/// Edges and corners that lie this near to each other, as a part of the distance from which they are seen, are one: a
+/// rounding or many. Smaller, an edge passes for another by rounding; larger, the two sides of a narrow plate are one.
+pub(super) const SAME_PART: f64 = 1e-9;
+
+/// Of an integrated segment in contact this part at least is gone before it ends where a body rolls on to another part of a
+/// shape. Smaller, a body that rolls along the border of two parts goes on by roundings of time; larger, a bend in its
+/// way may lie inside a step, which is off by a micrometre then.
+pub(super) const LEAST_OF_STEP: f64 = 1e-6;
+
 // The solver of contact constraints.
 
 /// What still enters below this part of the motions that it is the difference of is rounding. Smaller, the active
