@@ -23,7 +23,8 @@ window() {
     --window-size 1600x1000 --screenshot "screenshots/$1.png"
 }
 window start '' ''
-window problems invalid/several-problems 'tab:problems'
+# A scene with errors ends with 1, and its picture shows them.
+window problems invalid/several-problems 'tab:problems' || [ $? -eq 1 ]
 window light cradle 'switch_colors,dt:1/2,step_forward*2,next_event,event:0'
 window palette thesis-appendix-2 'palette'
 window editor thesis-appendix-2 'dt:1,step_forward*5,next_event*3,select:5853'

@@ -6,6 +6,7 @@ pub mod cli;
 pub mod editor;
 #[cfg(feature = "gui")]
 pub mod gui;
+pub mod random;
 pub mod record;
 #[cfg(feature = "render")]
 pub mod render;

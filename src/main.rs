@@ -28,6 +28,7 @@ fn open_editor(args: EditArgs) -> Result<(), CliError> {
     let report = gui::run(options).map_err(|error| match error {
         GuiError::NoWindow(reason) => CliError::no_window(reason),
         GuiError::Script(why) => CliError::Usage(why),
+        GuiError::Scene(why) => CliError::Scene(why),
     })?;
     if bench_orbit.is_some() {
         cli::say(report);

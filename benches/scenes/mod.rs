@@ -1,6 +1,7 @@
 //! Scenes that are made, not read: gases, piles and static spheres in any number.
 
 use glam::{DVec3, dvec3};
+use polyscene::random::Random;
 use polyscene::scene::{Body, Force, ForceKind, Map, Motion, NodeKey, Scene, Shape, SimParams};
 
 /// N equal spheres of 1 kg at a packing fraction in a box of 10 m, on a lattice, with velocities of 1 m/s in
@@ -11,11 +12,11 @@ pub fn gas(count: u32, packing: f64) -> Scene {
     let volume = packing * size * size * size / f64::from(count);
     let radius = libm::cbrt(0.75 * volume / std::f64::consts::PI);
     let mut bodies = walls(DVec3::ZERO, size);
-    let mut random = Random(7);
+    let mut random = Random::new(7);
     for index in 0..count {
         let cell = [index % side, index / side % side, index / (side * side)].map(|i| f64::from(i) + 0.5);
         let position = DVec3::from_array(cell) * (size / f64::from(side));
-        let velocity = random.direction();
+        let velocity = direction(&mut random);
         bodies.push(body(100 + i64::from(index), position, Motion::Dynamic { mass: 1.0, velocity }, radius));
     }
     scene(size, side, bodies)
@@ -38,10 +39,10 @@ pub fn pile(count: u32, e: f64) -> Scene {
     for (wall, z) in bodies.iter_mut().skip(4).zip([0.0, width]) {
         wall.position.z = z;
     }
-    let mut random = Random(11);
+    let mut random = Random::new(11);
     for index in 0..count {
         let cell = [index % side, index / (side * side), index / side % side].map(|i| f64::from(i) + 0.5);
-        let shift = DVec3::from_array(std::array::from_fn(|_| (2.0 * random.unit() - 1.0) * 0.09 * RADIUS));
+        let shift = random.vector(0.09 * RADIUS);
         let position = DVec3::from_array(cell) * PITCH + shift;
         let motion = Motion::Dynamic { mass: 0.5, velocity: DVec3::ZERO };
         bodies.push(body(100 + i64::from(index), position, motion, RADIUS));
@@ -74,12 +75,12 @@ pub fn lorentz_gas(count: u32, caged: bool) -> Scene {
         let position = dvec3(x, y, z) + 0.5;
         bodies.push(body(10_000 + i64::from(index), position, Motion::Static, 0.3));
     }
-    let mut random = Random(42);
+    let mut random = Random::new(42);
     for index in 0..10 {
         // Lattice corners have room for a ball.
         let corner =
             middle + dvec3(f64::from(index % 3) - 1.0, f64::from(index / 3 % 3) - 1.0, f64::from(index / 9));
-        let velocity = 5.0 * random.direction();
+        let velocity = 5.0 * direction(&mut random);
         bodies.push(body(100 + i64::from(index), corner, Motion::Dynamic { mass: 1.0, velocity }, 0.1));
     }
     scene(size, side, bodies)
@@ -119,22 +120,11 @@ fn walls(corner: DVec3, size: f64) -> Vec<Body> {
         .collect()
 }
 
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn direction(&mut self) -> DVec3 {
-        loop {
-            let v = DVec3::from_array(std::array::from_fn(|_| 2.0 * self.unit() - 1.0));
-            if v.length_squared() <= 1.0 && v.length_squared() > 0.01 {
-                return v.normalize();
-            }
+fn direction(random: &mut Random) -> DVec3 {
+    loop {
+        let v = random.vector(1.0);
+        if v.length_squared() <= 1.0 && v.length_squared() > 0.01 {
+            return v.normalize();
         }
     }
 }

@@ -48,11 +48,25 @@ impl CliError {
 
     /// The editor cannot open its window; the verbs do not need one.
     pub fn no_window(reason: impl Display) -> Self {
+        let draw = if cfg!(feature = "render") {
+            " and draw it with `polyscene render SCENE --out PICTURE.png`"
+        } else {
+            ""
+        };
         Self::Usage(format!(
             "the editor cannot open a window: {reason}\n\
-             Without a display, simulate a scene with `polyscene run SCENE --dt S --until S` and draw it \
-             with `polyscene render SCENE --out PICTURE.png`."
+             Without a display, simulate a scene with `polyscene run SCENE --dt S --until S`{draw}."
         ))
+    }
+
+    /// `render` in a program that has none.
+    #[cfg(not(feature = "render"))]
+    pub(super) fn no_pictures() -> Self {
+        Self::Usage(
+            "this program was built without pictures: build it with the feature `render`, such as \
+             `cargo build --release --no-default-features --features render`"
+                .into(),
+        )
     }
 
     /// An output file that cannot be written.

@@ -31,16 +31,22 @@ pub struct EverydayArgs {
 
     /// Numbers of balls, separated by commas
     #[arg(long = "n", value_name = "LIST", value_delimiter = ',', default_value = "2,5,10,20,50,100,300",
-          value_parser = clap::value_parser!(u32).range(1..=100_000))]
+          allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     sizes: Vec<u32>,
 
     /// Restitutions of a pair from 0 to 1, separated by commas
     #[arg(long = "e", value_name = "LIST", value_delimiter = ',', default_value = "0,0.1,0.3,0.5,0.7,0.9,1",
-          value_parser = restitution)]
+          allow_negative_numbers = true, value_parser = restitution)]
     restitutions: Vec<f64>,
 
     /// Seeds of the places and sizes, separated by commas
-    #[arg(long = "seed", value_name = "LIST", value_delimiter = ',', default_value = "1")]
+    #[arg(
+        long = "seed",
+        value_name = "LIST",
+        value_delimiter = ',',
+        allow_negative_numbers = true,
+        default_value = "1"
+    )]
     seeds: Vec<u64>,
 
     /// Model time of every run, in seconds

@@ -61,7 +61,8 @@ pub fn examine(document: Document, method: Method) -> Examined {
             Err(error) => error.problems,
         };
         problems.extend(found.into_iter().map(|problem| placed(&document, problem)));
-        problems.sort_by_key(|problem| problem.position.unwrap_or_default());
+        // What has no place sums up the others.
+        problems.sort_by_key(|problem| (problem.position.is_none(), problem.position));
     }
     Examined { document, simulation, problems }
 }

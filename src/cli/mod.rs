@@ -69,6 +69,13 @@ pub enum Verb {
     HardCases(HardCasesArgs),
     #[cfg(feature = "render")]
     Render(RenderArgs),
+    /// A picture needs the feature `render`
+    #[cfg(not(feature = "render"))]
+    #[command(hide = true, disable_help_flag = true)]
+    Render {
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        arguments: Vec<OsString>,
+    },
     Study(StudyArgs),
 }
 
@@ -82,6 +89,8 @@ impl Verb {
             Self::HardCases(args) => hard_cases::hard_cases(args),
             #[cfg(feature = "render")]
             Self::Render(args) => render::render(args),
+            #[cfg(not(feature = "render"))]
+            Self::Render { .. } => Err(CliError::no_pictures()),
             Self::Study(args) => study::study(args),
         }
     }

@@ -1,15 +1,17 @@
 //! `polyscene render`: a picture of a scene without a window, a display or a GPU.
 
+use std::io::IsTerminal as _;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
 
 use super::limits::LimitArgs;
+use super::output::{self, is_stdout};
 use super::samples::SampleGrid;
-use super::{CliError, input, method, number, output};
+use super::{CliError, input, method, number};
 use crate::record::{Exceeded, Frame, InlineRunner, RunCommand, RunState, Runner as _};
-use crate::render::{Offscreen, RenderError, Tile, render_picture, write_png};
+use crate::render::{Offscreen, RenderError, Tile, png, render_picture, write_png};
 use crate::scene::{Scene, check_writable, shown_path};
 use crate::sim::{Fault, Method};
 use crate::view::{
@@ -29,7 +31,7 @@ pub struct RenderArgs {
     /// Scene file; `-` is standard input
     scene: PathBuf,
 
-    /// Picture to write
+    /// Picture to write; `-` is standard output
     #[arg(short, long, value_name = "OUT.png")]
     out: PathBuf,
 
@@ -92,6 +94,11 @@ pub(super) fn render(args: &RenderArgs) -> Result<(), CliError> {
     if output::overwrites(&args.out, &args.scene) {
         return Err(CliError::Usage(format!("--out would overwrite the scene {}", shown_path(&args.out))));
     }
+    if is_stdout(&args.out) && std::io::stdout().is_terminal() {
+        return Err(CliError::Usage(
+            "--out -: a terminal cannot show a picture; give a file or a pipe".into(),
+        ));
+    }
     let steps = steps(args)?;
     let watchdog = args.limits.watchdog();
     let name = input::display_name(&args.scene);
@@ -102,7 +109,9 @@ pub(super) fn render(args: &RenderArgs) -> Result<(), CliError> {
     let (Some(scene), Some(_)) = (examined.document.scene(), examined.simulation) else {
         return Err(CliError::Scene(format!("{name} cannot be drawn: it has errors")));
     };
-    check_writable(&args.out).map_err(unwritable)?;
+    if !is_stdout(&args.out) {
+        check_writable(&args.out).map_err(unwritable)?;
+    }
     let (frame, exceeded) = frame_after(&steps, scene, args).map_err(CliError::Fault)?;
     drop(watchdog);
 
@@ -114,7 +123,11 @@ pub(super) fn render(args: &RenderArgs) -> Result<(), CliError> {
     let [r, g, b, _] = args.theme().palette().map_box.0;
     let picture = render_picture(&mut offscreen, args.size, [r, g, b, 255], &tiles)
         .map_err(|error| unusable(&error))?;
-    write_png(&args.out, picture.as_raw(), args.size).map_err(unwritable)?;
+    if is_stdout(&args.out) {
+        output::print(&png(picture.as_raw(), args.size).map_err(unwritable)?)?;
+    } else {
+        write_png(&args.out, picture.as_raw(), args.size).map_err(unwritable)?;
+    }
     exceeded.map_or(Ok(()), |why| Err(CliError::Stopped { time: frame.time, why }))
 }
 
@@ -208,7 +221,7 @@ fn frame_after(
         // The message begins with the time, which a fault tells of itself.
         (RunState::Faulted, Some(text)) => {
             let message = text.split_once(": ").map_or(text.as_str(), |(_, message)| message);
-            Err(Fault { time: frame.time, message: message.to_owned() })
+            Err(Fault { time: frame.time, message: message.to_owned(), key: None })
         }
         _ => Ok((frame, runner.exceeded())),
     }

@@ -9,4 +9,7 @@ pub enum GuiError {
     /// A script asked for something that cannot be done.
     #[error("{0}")]
     Script(String),
+    /// The scene of a script cannot be opened or has errors.
+    #[error("{0}")]
+    Scene(String),
 }

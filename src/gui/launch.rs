@@ -2,7 +2,8 @@
 
 use std::collections::VecDeque;
 use std::fmt;
-use std::path::PathBuf;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -12,8 +13,8 @@ use super::app::{App, Parts, TIGHT, Tab};
 use super::dialogs::NativeFileDialogs;
 use super::error::GuiError;
 use crate::editor::{Action, COMMANDS, Command, Outcome, Storage};
-use crate::record::ThreadRunner;
-use crate::render::write_png;
+use crate::record::{RunState, ThreadRunner, Unanswered};
+use crate::render::{png, write_png};
 use crate::scene::{check_writable, same_file, shown_path};
 use crate::sim::Method;
 use crate::view::OVERLAYS;
@@ -24,7 +25,7 @@ pub struct Options {
     pub scene: Option<PathBuf>,
     /// Points.
     pub window_size: Option<[u32; 2]>,
-    /// Write a picture of the window, then close it.
+    /// Write a picture of the window, then close it; `-` is standard output.
     pub screenshot: Option<PathBuf>,
     /// Commands to carry out first: ids of [`COMMANDS`], `id*count`, `select:name`, `overlay:id`,
     /// `tab:problems`, `dt:1/60`, `method:thesis`, separated by commas.
@@ -42,7 +43,16 @@ pub struct Report {
     pub orbit_s: Vec<f64>,
     /// Repaints in two seconds in which nothing happened.
     pub idle_repaints: u64,
-    failure: Option<String>,
+    failure: Option<Failure>,
+}
+
+/// Why a script did not end well.
+#[derive(Clone, Debug)]
+enum Failure {
+    /// A step that cannot be taken, or a picture that cannot be written.
+    Script(String),
+    /// A scene that cannot be opened or has errors.
+    Scene(String),
 }
 
 impl fmt::Display for Report {
@@ -67,7 +77,7 @@ impl fmt::Display for Report {
 pub fn run(options: Options) -> Result<Report, GuiError> {
     let called = Instant::now();
     let report = Arc::new(Mutex::new(Report::default()));
-    let script = Script::new(&options, called, report.clone())?;
+    let mut script = Script::new(&options, called, report.clone())?;
     check_screenshot(&options)?;
     let scripted = options.screenshot.is_some() || options.bench_orbit.is_some();
     let size = options.window_size.unwrap_or([1360, 860]).map(|side| side as f32);
@@ -94,6 +104,7 @@ pub fn run(options: Options) -> Result<Report, GuiError> {
             ctx.send_viewport_cmd(ViewportCommand::InnerSize(size.map(|side| side as f32).into()));
         }
         let runner = ThreadRunner::new(move || ctx.request_repaint())?;
+        script.unanswered = runner.unanswered();
         let storage = if scripted { Storage::default() } else { Storage::of_user() };
         let files = Box::new(NativeFileDialogs::default());
         let mut app = App::new(cc, Parts { runner: Box::new(runner), storage, files, scene });
@@ -105,14 +116,15 @@ pub fn run(options: Options) -> Result<Report, GuiError> {
         .map_err(|error| GuiError::NoWindow(without_source_place(&error.to_string())))?;
     let report = report.lock().unwrap_or_else(PoisonError::into_inner).clone();
     match report.failure {
-        Some(reason) => Err(GuiError::Script(reason)),
+        Some(Failure::Script(reason)) => Err(GuiError::Script(reason)),
+        Some(Failure::Scene(reason)) => Err(GuiError::Scene(reason)),
         None => Ok(report),
     }
 }
 
 /// Refuses a picture that cannot be written or would replace the scene, before the window opens.
 fn check_screenshot(options: &Options) -> Result<(), GuiError> {
-    let Some(path) = &options.screenshot else { return Ok(()) };
+    let Some(path) = options.screenshot.as_ref().filter(|path| !is_stdout(path)) else { return Ok(()) };
     if options.scene.as_ref().is_some_and(|scene| same_file(path, scene)) {
         let text = format!("--screenshot would overwrite the scene {}", shown_path(path));
         return Err(GuiError::Script(text));
@@ -121,9 +133,19 @@ fn check_screenshot(options: &Options) -> Result<(), GuiError> {
         .map_err(|error| GuiError::Script(format!("cannot write {}: {error}", shown_path(path))))
 }
 
+fn is_stdout(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
 /// What a script does with the window, turn by turn.
 pub(super) struct Script {
     called: Instant,
+    /// The scene that was asked for.
+    scene: Option<PathBuf>,
+    /// Commands that the simulation has not taken up yet.
+    unanswered: Unanswered,
+    /// Whether it had taken all up in the turn before: the window shows it now.
+    answered: bool,
     /// Each with its text.
     steps: VecDeque<(Step, String)>,
     screenshot: Option<PathBuf>,
@@ -152,8 +174,8 @@ struct Bench {
     resting: Option<(Instant, u64)>,
 }
 
-/// Long enough for the simulation's thread to take a command up.
-const PAUSE: Duration = Duration::from_millis(120);
+/// Long enough for what moves in the window by itself to come to its end: folds, fading marks.
+const PAUSE: Duration = Duration::from_millis(360);
 
 /// How long nothing may happen for the count of repaints.
 const REST: Duration = Duration::from_secs(2);
@@ -172,10 +194,26 @@ impl Script {
             times_s: Vec::new(),
             resting: None,
         });
-        Ok(Self { called, steps, screenshot: options.screenshot.clone(), bench, wait_until: None, report })
+        Ok(Self {
+            called,
+            scene: options.scene.clone(),
+            unanswered: Unanswered::default(),
+            answered: false,
+            steps,
+            screenshot: options.screenshot.clone(),
+            bench,
+            wait_until: None,
+            report,
+        })
     }
 
-    fn tell(&self, change: impl FnOnce(&mut Report)) {
+    /// Whether the window does not show yet what the simulation made of all that it was told.
+    fn waits_for_simulation(&mut self) -> bool {
+        let answered = std::mem::replace(&mut self.answered, self.unanswered.is_none());
+        !(answered && self.answered)
+    }
+
+    fn note(&self, change: impl FnOnce(&mut Report)) {
         change(&mut self.report.lock().unwrap_or_else(PoisonError::into_inner));
     }
 }
@@ -224,7 +262,7 @@ impl App {
         let Some(mut script) = self.script.take() else { return };
         if self.repaints == 1 {
             let first_frame_s = script.called.elapsed().as_secs_f64();
-            script.tell(|report| report.first_frame_s = first_frame_s);
+            script.note(|report| report.first_frame_s = first_frame_s);
         }
         if self.script_goes_on(ctx, &mut script) {
             self.script = Some(script);
@@ -236,7 +274,9 @@ impl App {
         if script.steps.is_empty() && script.screenshot.is_none() && script.bench.is_none() {
             return false;
         }
-        let busy = self.session().is_busy() || self.accuracy.is_running();
+        let busy = script.waits_for_simulation()
+            || self.session().frame().state == RunState::Busy
+            || self.accuracy.is_running();
         if busy || script.wait_until.is_some_and(|until| Instant::now() < until) {
             ctx.request_repaint_after(Duration::from_millis(10));
             return true;
@@ -246,17 +286,16 @@ impl App {
             ctx.request_repaint();
             return true;
         }
+        if let Some(reason) = self.missing_scene(script) {
+            return fail(ctx, script, Failure::Scene(reason));
+        }
         if let Some((step, text)) = script.steps.pop_front() {
             if let Err(reason) = self.take_step(ctx, &step) {
-                script.tell(|report| report.failure = Some(format!("--do {text}: {reason}")));
-                ctx.send_viewport_cmd(ViewportCommand::Close);
-                return false;
+                return fail(ctx, script, Failure::Script(format!("--do {text}: {reason}")));
             }
-            // the simulation may have got something to do
-            let pause = matches!(step, Step::Command(_));
-            script.wait_until = pause.then(|| Instant::now() + PAUSE);
+            script.answered = false;
             if script.steps.is_empty() {
-                script.wait_until = Some(Instant::now() + 3 * PAUSE);
+                script.wait_until = Some(Instant::now() + PAUSE);
             }
             ctx.request_repaint();
             return true;
@@ -268,17 +307,34 @@ impl App {
         }
         if let Some(bench) = script.bench.take() {
             let idle = bench.resting.map_or(0, |(_, repaints)| repaints);
-            script.tell(|report| {
+            script.note(|report| {
                 report.orbit_s = bench.times_s;
                 report.orbit_s.sort_by(f64::total_cmp);
                 report.idle_repaints = idle;
             });
+        }
+        if let Some(reason) = self.errors_of_scene() {
+            // The picture shows them, but no script should take them for a success.
+            script.note(|report| report.failure = Some(Failure::Scene(reason)));
         }
         match script.screenshot.take() {
             Some(path) => take_picture(ctx, path, script.report.clone()),
             None => ctx.send_viewport_cmd(ViewportCommand::Close),
         }
         false
+    }
+
+    /// Why the scene that a script wants is not in the window, if it is not.
+    fn missing_scene(&self, script: &Script) -> Option<String> {
+        let path = script.scene.as_ref().filter(|_| self.session().opened_count() == 0)?;
+        let why = std::fs::File::open(path).err().map_or(String::new(), |error| format!(": {error}"));
+        Some(format!("{} cannot be opened{why}", shown_path(path)))
+    }
+
+    fn errors_of_scene(&self) -> Option<String> {
+        let document = self.session().document();
+        let errors = document.diagnostics().iter().filter(|problem| problem.is_error()).count();
+        (errors > 0).then(|| format!("the scene in the window has {errors} error(s), see `polyscene check`"))
     }
 
     /// The error says why the step cannot be taken.
@@ -362,14 +418,28 @@ fn take_picture(ctx: &Context, path: PathBuf, report: Arc<Mutex<Report>>) {
     let after = ctx.clone();
     ctx.request_screenshot(move |picture: Arc<egui::ColorImage>| {
         let [width, height] = picture.size.map(|side| side as u32);
-        let written = write_png(&path, picture.as_raw(), [width, height]);
-        if let Err(error) = written {
+        if let Err(error) = write_picture(&path, picture.as_raw(), [width, height]) {
             let mut report = report.lock().unwrap_or_else(PoisonError::into_inner);
-            report.failure = Some(format!("cannot write {}: {error}", shown_path(&path)));
+            report.failure = Some(Failure::Script(format!("cannot write {}: {error}", shown_path(&path))));
         }
         after.send_viewport_cmd(ViewportCommand::Close);
     });
     ctx.request_repaint();
+}
+
+fn write_picture(path: &Path, rgba: &[u8], size: [u32; 2]) -> std::io::Result<()> {
+    if is_stdout(path) {
+        let mut stdout = std::io::stdout();
+        return stdout.write_all(&png(rgba, size)?).and_then(|()| stdout.flush());
+    }
+    write_png(path, rgba, size)
+}
+
+/// Ends a script, and the window with it.
+fn fail(ctx: &Context, script: &Script, failure: Failure) -> bool {
+    script.note(|report| report.failure = Some(failure));
+    ctx.send_viewport_cmd(ViewportCommand::Close);
+    false
 }
 
 #[cfg(test)]

@@ -20,7 +20,7 @@ pub use command::RunCommand;
 pub use frame::{BodyFrame, Busiest, ContactFrame, EventRow, Frame, Jump, Lag, LagCause, RunState};
 pub use inline::InlineRunner;
 pub use limits::{Exceeded, Limits, Watch, advance};
-pub use thread::ThreadRunner;
+pub use thread::{ThreadRunner, Unanswered};
 
 /// Something that runs a simulation on command. The application uses a thread, so that no scene can
 /// freeze the window; tests run inline, so that nothing sleeps.

@@ -15,6 +15,6 @@ mod view_target;
 
 pub use error::RenderError;
 pub use offscreen::Offscreen;
-pub use picture::{Tile, render_picture, write_png};
+pub use picture::{Tile, png, render_picture, write_png};
 pub use renderer::{PixelRect, Renderer};
 pub use text::draw_labels;

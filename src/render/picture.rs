@@ -33,12 +33,16 @@ pub fn render_picture(
     Ok(picture)
 }
 
-/// Writes a PNG file in one go, so that nobody sees a part of it. Packed well: the smooth background
-/// takes eight times the room otherwise.
-pub fn write_png(path: &Path, rgba: &[u8], [width, height]: [u32; 2]) -> io::Result<()> {
+/// Writes a PNG file in one go, so that nobody sees a part of it.
+pub fn write_png(path: &Path, rgba: &[u8], size: [u32; 2]) -> io::Result<()> {
+    write_atomically(path, &png(rgba, size)?)
+}
+
+/// The bytes of a PNG file. Packed well: the smooth background takes eight times the room otherwise.
+pub fn png(rgba: &[u8], [width, height]: [u32; 2]) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::Adaptive)
         .write_image(rgba, width, height, ExtendedColorType::Rgba8)
         .map_err(io::Error::other)?;
-    write_atomically(path, &bytes)
+    Ok(bytes)
 }

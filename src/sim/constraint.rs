@@ -43,6 +43,7 @@ pub(super) fn stay_on_from(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::Random;
 
     fn floor(a: usize) -> Link {
         Link { a, b: None, towards: DVec3::NEG_Y, limit: 0.0 }
@@ -88,13 +89,8 @@ mod tests {
     /// allowed motion alone does.
     #[test]
     fn the_nearest_allowed_motion_is_found() {
-        let mut seed = 0x9e37_79b9_7f4a_7c15_u64;
-        let mut random = move || {
-            seed ^= seed << 13;
-            seed ^= seed >> 7;
-            seed ^= seed << 17;
-            (seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-        };
+        let mut source = Random::new(1);
+        let mut random = move || source.range(-1.0, 1.0);
         for case in 0..2000 {
             let bodies = 1 + case % 5;
             let inverse_mass: Vec<f64> = (0..bodies).map(|_| libm::exp(3.0 * random())).collect();

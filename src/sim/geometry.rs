@@ -8,7 +8,7 @@ use super::model::Model;
 use super::pair::Pair;
 use super::predict::{self, Ball, Gap, Target};
 use super::restitution::{of_pair, sticking};
-use super::shape::{Surface, direction};
+use super::shape::{Part, Surface, direction};
 use super::state::State;
 use super::tolerance::TOUCHES;
 
@@ -29,6 +29,19 @@ pub(super) fn target<'a>(model: &'a Model, state: &'a State, id: BodyId) -> Targ
 /// What a body at `position` touches of a static one.
 pub(super) fn surface_of(model: &Model, id: BodyId, position: DVec3) -> Surface {
     model.body(id).shape.convex().nearest(model.bodies.static_segment(id.index()).x, position).surface()
+}
+
+/// The edge or corner of a static shape that a body at `position` lies on; `None` where the shape is one part.
+pub(super) fn part_of(model: &Model, id: BodyId, position: DVec3) -> Option<Part> {
+    let shape = model.body(id).shape.convex();
+    let near = shape.nearest(model.bodies.static_segment(id.index()).x, position);
+    (!shape.is_one_part()).then(|| near.part(position))
+}
+
+/// Whether a body at `position` sees this part of a static shape.
+pub(super) fn sees_part(model: &Model, id: BodyId, part: &Part, position: DVec3) -> bool {
+    let near = model.body(id).shape.convex().nearest(model.bodies.static_segment(id.index()).x, position);
+    part.is_seen(&near, position)
 }
 
 /// The gap of two bodies, with the normal from `a` to `b`.
@@ -80,6 +93,11 @@ impl BodiesAt<'_> {
     /// A contact among these bodies as a bound on their accelerations. The limit is the centripetal
     /// acceleration |v⊥|²/ρ that keeps them on a curved surface of radius ρ: less than that and they part.
     pub fn link(&self, model: &Model, pair: Pair, surface: Surface) -> Link {
+        self.link_on(model, pair, surface, None)
+    }
+
+    /// The same on a part of the shape alone, wherever the body is.
+    pub fn link_on(&self, model: &Model, pair: Pair, surface: Surface, part: Option<&Part>) -> Link {
         let a = self.row(pair.first());
         let b = pair.second().map(|other| self.row(other));
         let (towards, limit) = match (b, surface) {
@@ -88,6 +106,8 @@ impl BodiesAt<'_> {
             (None, Surface::Round) => {
                 let at = model.bodies.static_segment(pair.b.index()).x;
                 let near = model.body(pair.b).shape.convex().nearest(at, self.x[a]);
+                let other = part.filter(|part| !part.is_seen(&near, self.x[a]));
+                let near = other.map_or(near, |part| part.seen_from(self.x[a]));
                 (near.towards, near.turn_away(self.v[a]))
             }
         };

@@ -19,17 +19,20 @@ use glam::DVec3;
 
 use super::body::BodyId;
 use super::constraint::enter_none;
-use super::geometry::{BodiesAt, contact_distance, gap_of, restitution_at, surface_of};
+use super::geometry::{BodiesAt, contact_distance, gap_of, larger_radius, restitution_at, surface_of};
 use super::island::Island;
 use super::link::{Link, renumber};
 use super::model::Model;
 use super::nearest::nearest;
 use super::neighbours::near;
 use super::pair::Pair;
-use super::predict::Gap;
+use super::predict::{Gap, touch_tolerance};
 use super::shape::Surface;
 use super::state::State;
-use super::tolerance::{CLOSING_ROUNDING, NO_CHANGE, UNCOUPLED};
+use super::tolerance::{
+    CLOSING_ROUNDING, NO_CHANGE, ROUNDS, ROUNDS_PER_CONTACT, ROUNDS_TO_FALL, ROUNDS_TO_FALL_PER_CONTACT,
+    UNCOUPLED,
+};
 
 /// Bodies that touch, at the time of an impact.
 pub(super) struct Group {
@@ -109,10 +112,13 @@ impl Group {
         CLOSING_ROUNDING * (speed(member.link.a) + member.link.b.map_or(0.0, speed))
     }
 
-    /// Whether a contact took part in the impact by more than the rounding of its speeds.
-    pub fn is_felt(&self, member: &Member) -> bool {
+    /// Whether a contact took part in the impact by more than the rounding of its speeds, and of places: bodies that touch
+    /// may be a rounding δ apart, and then meet at √(2gδ).
+    pub fn is_felt(&self, model: &Model, member: &Member) -> bool {
         let change = member.impulse * member.link.response(&member.link, &self.bodies.inverse_mass);
-        change > self.rounding(member).max(NO_CHANGE * self.fastest)
+        let apart = touch_tolerance(member.gap.point, larger_radius(model, member.pair));
+        let fall = (1.0 + member.restitution) * (2.0 * member.gap.drive.abs() * apart).sqrt();
+        change > self.rounding(member).max(NO_CHANGE * self.fastest).max(fall)
     }
 
     /// Rounds of reflections until nothing closes; whether closing speeds fell without end, so that the rest was
@@ -120,14 +126,15 @@ impl Group {
     pub fn resolve(&mut self, smallest_share: f64) -> bool {
         let largest = self.members.iter().map(|member| member.before).fold(0.0, f64::max);
         let is_plastic = self.members.iter().all(|member| member.restitution == 0.0);
-        let rounds = 100 + 20 * self.members.len();
+        let rounds = ROUNDS + ROUNDS_PER_CONTACT * self.members.len();
+        let settling_in = ROUNDS_TO_FALL + ROUNDS_TO_FALL_PER_CONTACT * self.members.len();
         let couplings = self.couplings();
         for round in 0..2 * rounds {
             let closing = self.still_closing();
             let Some(worst) = closing.iter().map(|k| self.closing(&self.members[*k])).reduce(f64::max) else {
                 return false;
             };
-            let is_far_gone = round > 4 + 2 * self.members.len() && worst <= smallest_share * largest;
+            let is_far_gone = round > settling_in && worst <= smallest_share * largest;
             if is_plastic || is_far_gone {
                 break;
             }
@@ -197,9 +204,9 @@ impl Group {
         let inverse_mass: Vec<f64> = bodies.iter().map(|body| self.bodies.inverse_mass[*body]).collect();
         let mut plastic: Vec<DVec3> = bodies.iter().map(|body| self.bodies.v[*body]).collect();
         let multipliers = enter_none(&links, &inverse_mass, &mut plastic).multipliers;
-        let taken: Vec<f64> =
+        let energies: Vec<f64> =
             multipliers.iter().zip(&closing).map(|(multiplier, closing)| multiplier * closing).collect();
-        let restitution = self.shared_restitution(contacts, &taken);
+        let restitution = self.shared_restitution(contacts, &energies);
         for (k, multiplier) in contacts.iter().zip(multipliers) {
             self.members[*k].impulse += (1.0 + restitution) * multiplier;
         }
@@ -210,27 +217,27 @@ impl Group {
     /// books the loss ½(1 − e²) Σ m|v − v_plastic|². The impulses say the same, but where normals all but coincide
     /// they are large differences, and the velocities are not.
     fn throw(&mut self, plastic: impl Iterator<Item = (usize, DVec3)>, restitution: f64) {
-        let mut taken = 0.0;
+        let mut of_way = 0.0;
         for (body, plastic) in plastic {
             let v = &mut self.bodies.v[body];
             let way = *v - plastic;
             if way != DVec3::ZERO {
-                taken += way.length_squared() / self.bodies.inverse_mass[body];
+                of_way += way.length_squared() / self.bodies.inverse_mass[body];
                 *v -= (1.0 + restitution) * way;
             }
         }
-        self.loss += 0.5 * (1.0 - restitution) * (1.0 + restitution) * taken;
+        self.loss += 0.5 * (1.0 - restitution) * (1.0 + restitution) * of_way;
     }
 
     /// √ of the mean of e², weighted with the energy that each contact takes up.
-    fn shared_restitution(&self, contacts: &[usize], taken: &[f64]) -> f64 {
+    fn shared_restitution(&self, contacts: &[usize], energies: &[f64]) -> f64 {
         let of = |k: &usize| self.members[*k].restitution;
         let first = of(&contacts[0]);
         if contacts.iter().all(|k| of(k) == first) {
             return first;
         }
-        let whole: f64 = taken.iter().map(|taken| taken.max(0.0)).sum();
-        let weighted = contacts.iter().zip(taken).map(|(k, taken)| of(k) * of(k) * taken.max(0.0));
+        let whole: f64 = energies.iter().map(|energy| energy.max(0.0)).sum();
+        let weighted = contacts.iter().zip(energies).map(|(k, energy)| of(k) * of(k) * energy.max(0.0));
         if whole > 0.0 { (weighted.sum::<f64>() / whole).sqrt() } else { 0.0 }
     }
 

@@ -22,7 +22,7 @@ use super::restart::{Start, restart};
 use super::restitution::{Blow, blow, reduced_mass};
 use super::settle::{Settling, settle};
 use super::state::State;
-use super::tolerance::{FALLING, MEMORY};
+use super::tolerance::{FALLING, MEMORY, NEAR_REST};
 
 /// Two bodies touch while closing. `also` are impacts of the same instant, of which those connected with it
 /// are resolved too and taken out.
@@ -141,7 +141,7 @@ fn is_near_rest(model: &Model, pair: Pair, gap: &Gap) -> bool {
     let speed = restitution_at(model, pair, -gap.rate) * -gap.rate;
     let radius = smaller_radius(model, pair);
     let height = (model.params.rest_height * radius).max(touch_tolerance(gap.point, radius));
-    speed * speed <= 4.0 * gap.drive.abs() * height
+    speed * speed <= 2.0 * NEAR_REST * gap.drive.abs() * height
 }
 
 /// Newton's law for two bodies that touch nothing else, which then go on.
@@ -166,11 +166,11 @@ fn bounce(model: &Model, state: &mut State, time: f64, pair: Pair, gap: &Gap) ->
 
 /// Lists what a group exchanged, one row for each contact.
 fn list(model: &Model, state: &mut State, time: f64, group: &Group, kind: EventKind) {
-    if !group.members.iter().any(|member| group.is_felt(member)) {
+    if !group.members.iter().any(|member| group.is_felt(model, member)) {
         return;
     }
     state.group += 1;
-    let felt = group.members.iter().filter(|member| group.is_felt(member));
+    let felt = group.members.iter().filter(|member| group.is_felt(model, member));
     felt.flat_map(|member| member.pair.dynamic()).for_each(|body| note_impact(model, state, body, time));
     let row = |member: &Member| {
         let event = Event {
@@ -183,7 +183,8 @@ fn list(model: &Model, state: &mut State, time: f64, group: &Group, kind: EventK
         };
         in_id_order(model, event)
     };
-    let mut rows: Vec<Event> = group.members.iter().filter(|member| group.is_felt(member)).map(row).collect();
+    let mut rows: Vec<Event> =
+        group.members.iter().filter(|member| group.is_felt(model, member)).map(row).collect();
     rows.sort_by_key(|row| (rank(model, row.a), row.b.map(|b| rank(model, b))));
     let count = rows.len() as u32;
     for (nth, row) in (1..).zip(rows) {

@@ -8,7 +8,7 @@ use glam::DVec3;
 use super::constraint::{enter_none, enter_none_from, stay_on, stay_on_from};
 use super::event::EventKind;
 use super::force::{ForceEntry, Law};
-use super::geometry::{BodiesAt, surface_of};
+use super::geometry::{BodiesAt, part_of, sees_part, surface_of};
 use super::ledger::record_contact;
 use super::link::{Link, Solved};
 use super::loads::Loads;
@@ -16,10 +16,10 @@ use super::model::Model;
 use super::motion::{CoupledStart, SegmentError, Step, check, coupled_step, place, step_hint};
 use super::pair::Pair;
 use super::place::Place;
-use super::segment::{SERIES, Segment};
-use super::shape::Surface;
+use super::segment::{Path, SERIES, Segment};
+use super::shape::{Part, Surface};
 use super::state::State;
-use super::tolerance::{PRESSURE_ROUNDING, PRESSURE_SAMPLES};
+use super::tolerance::{LEAST_OF_STEP, PRESSURE_ROUNDING, PRESSURE_SAMPLES};
 
 /// Bodies of one island at one time, in the order of their indices.
 #[derive(Clone, Debug, Default)]
@@ -200,22 +200,15 @@ pub(super) fn begin_island(
         let rows = island.x.iter().zip(&island.v).zip(&accelerations);
         rows.map(|((x, v), a)| (Segment::ballistic(time, *x, *v, *a), None)).collect()
     } else {
-        let hint = step_hint(state, island.ids[0], time);
-        let Island { ids, x, v, contacts, inverse_mass } = island;
-        let start = CoupledStart { model, ids, time, x, v, hint };
-        // Of each node, once it was looked at; at first those of the node before.
-        let mut loads: [Option<Loads>; SERIES + 1] = Default::default();
-        let mut last = Loads::from(&solved.multipliers);
-        let step = coupled_step(&start, &mut state.counters.force_evaluations, |node, time, x, v| {
-            let mut motion = free(model, ids, inverse_mass, time, (x, v));
-            let links = links_of(model, ids, contacts, x, v);
-            let size = largest(&motion, &links);
-            let loads = loads[node].get_or_insert_with(|| last.clone());
-            stay_on_from(loads, &links, inverse_mass, &mut motion);
-            last.clone_from(loads);
-            (motion, size)
-        });
-        step.map_err(|error| (ids[0], error))?
+        let parts = parts_of(model, island);
+        let steps = integrated(model, state, island, time, (&parts[..], &solved.multipliers[..]))?;
+        match part_ends(model, island, &parts, &steps) {
+            None => steps,
+            Some(end) if end > time + LEAST_OF_STEP * steps[0].0.step => {
+                steps.into_iter().map(|(segment, column)| (Segment { end, ..segment }, column)).collect()
+            }
+            Some(_) => integrated(model, state, island, time, (&[][..], &solved.multipliers[..]))?,
+        }
     };
     for (body, (segment, _)) in island.ids.iter().zip(&steps) {
         check(model, segment).map_err(|error| (*body, error))?;
@@ -225,6 +218,63 @@ pub(super) fn begin_island(
         place(model, state, *body, segment, column);
     }
     Ok(())
+}
+
+/// The edge or corner that each contact of an island lies on, in their order, where it is one of several of its shape.
+fn parts_of(model: &Model, island: &Island) -> Vec<Option<Part>> {
+    let part = |(pair, surface): &(Pair, Surface)| {
+        let at = island.ids.binary_search(&pair.first()).ok().map(|row| island.x[row])?;
+        (*surface == Surface::Round && pair.b.is_static()).then(|| part_of(model, pair.b, at))?
+    };
+    island.contacts.iter().map(part).collect()
+}
+
+/// One step of the integrator for the bodies of an island, on the parts of the shapes on which they are now: beyond these
+/// the way would bend, where no polynomial follows it. `loads` are those at the start.
+fn integrated(
+    model: &Model,
+    state: &mut State,
+    island: &Island,
+    time: f64,
+    (parts, loads): (&[Option<Part>], &[f64]),
+) -> Result<Vec<Step>, (u32, SegmentError)> {
+    let hint = step_hint(state, island.ids[0], time);
+    let Island { ids, x, v, contacts, inverse_mass } = island;
+    let start = CoupledStart { model, ids, time, x, v, hint };
+    // Of each node, once it was looked at; at first those of the node before.
+    let mut loads_at: [Option<Loads>; SERIES + 1] = Default::default();
+    let mut last = Loads::from(loads);
+    let step = coupled_step(&start, &mut state.counters.force_evaluations, |node, time, x, v| {
+        let mut motion = free(model, ids, inverse_mass, time, (x, v));
+        let bodies = BodiesAt { ids, x, v };
+        let parts = parts.iter().map(Option::as_ref).chain(std::iter::repeat(None));
+        let links: Vec<Link> = (contacts.iter().zip(parts))
+            .map(|((pair, surface), part)| bodies.link_on(model, *pair, *surface, part))
+            .collect();
+        let size = largest(&motion, &links);
+        let loads = loads_at[node].get_or_insert_with(|| last.clone());
+        stay_on_from(loads, &links, inverse_mass, &mut motion);
+        last.clone_from(loads);
+        (motion, size)
+    });
+    step.map_err(|error| (ids[0], error))
+}
+
+/// First time at which a body of an island has rolled off the part of a shape on which its step began.
+fn part_ends(model: &Model, island: &Island, parts: &[Option<Part>], steps: &[Step]) -> Option<f64> {
+    if parts.iter().all(Option::is_none) {
+        return None;
+    }
+    let all_seen = |time: f64| {
+        island.contacts.iter().zip(parts).all(|((pair, _), part)| {
+            let (Some(part), Ok(row)) = (part, island.ids.binary_search(&pair.first())) else { return true };
+            let (segment, column) = &steps[row];
+            let path = Path { segment, series: column.as_ref().map(|column| &column.series) };
+            sees_part(model, pair.b, part, path.position(time))
+        })
+    };
+    let segment = &steps.first()?.0;
+    first_failing(segment.start, segment.end - segment.start, all_seen)
 }
 
 /// Books what the surfaces took of velocities that pointed into them or away.
@@ -267,12 +317,17 @@ pub(super) fn first_parting(model: &Model, state: &State, ids: &[u32]) -> Option
         let held = island.held(model, time, &mut loads);
         held.into_iter().zip(island.contacts).filter(|(held, _)| !held).map(|(_, (pair, _))| pair).collect()
     };
-    let mut low = segment.start;
+    let time = first_failing(segment.start, segment.step, |time| lost(time).is_empty())?;
+    Some((time, lost(time)))
+}
+
+/// The first time in a segment of this length at which `holds` no longer holds, as some looks on the way see it.
+fn first_failing(start: f64, length: f64, mut holds: impl FnMut(f64) -> bool) -> Option<f64> {
+    let mut low = start;
     for sample in 1..=PRESSURE_SAMPLES {
-        let high = segment.start + segment.step * f64::from(sample) / f64::from(PRESSURE_SAMPLES);
-        if !lost(high).is_empty() {
-            let time = bisect(low, high, |time| lost(time).is_empty());
-            return Some((time, lost(time)));
+        let high = start + length * f64::from(sample) / f64::from(PRESSURE_SAMPLES);
+        if !holds(high) {
+            return Some(bisect(low, high, &mut holds));
         }
         low = high;
     }

@@ -25,7 +25,8 @@ pub(super) fn worst_overlap(model: &Model, state: &State, time: f64) -> f64 {
 pub(super) fn start_warnings(model: &Model, state: &State) -> Result<Vec<Diagnostic>, Diagnostic> {
     let mut warnings = overlap_warnings(model, state)?;
     warnings.extend(outside_warnings(model, state));
-    warnings.sort_by_key(|warning| warning.key);
+    // What is about no body sums up the others.
+    warnings.sort_by_key(|warning| (warning.key.is_none(), warning.key));
     Ok(warnings)
 }
 

@@ -55,6 +55,7 @@ pub(super) fn responses(links: &[Link], inverse_mass: &[f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::Random;
 
     /// Symptom: not a number, wherever a body of infinite mass took part. Expected: the answer that a static body in
     /// its place gives. Cause: its weight was 1/0, and what it moved 0.
@@ -94,11 +95,8 @@ mod tests {
     /// along the others is enlarged.
     #[test]
     fn what_is_found_is_a_projection_for_normals_in_all_but_one_direction() {
-        let mut seed = 1_u64;
-        let mut random = move || {
-            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-        };
+        let mut source = Random::new(1);
+        let mut random = move || source.range(-1.0, 1.0);
         for case in 0..4000 {
             let apart = libm::exp(-20.0 * f64::from(case % 97) / 97.0);
             let bodies = 2 + case as usize % 4;
@@ -130,11 +128,8 @@ mod tests {
     /// search finds.
     #[test]
     fn loads_lead_to_what_the_search_finds() {
-        let mut seed = 7_u64;
-        let mut random = move || {
-            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-        };
+        let mut source = Random::new(7);
+        let mut random = move || source.range(-1.0, 1.0);
         let (mut found_from_loads, cases) = (0, 400);
         for case in 0..cases {
             let bodies = 4 + case % 12;

@@ -7,12 +7,12 @@ use super::pair::Pair;
 pub(super) struct OpenStep {
     /// s.
     pub end: f64,
-    pub search: Search,
+    pub search: Collisions,
 }
 
 /// The collisions left in a Δt.
 #[derive(Clone, Debug)]
-pub(super) enum Search {
+pub(super) enum Collisions {
     /// The trial steps are still to be made.
     Planned,
     Sets(SetSearch),

@@ -167,6 +167,7 @@ impl Queue {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::Random;
 
     fn predicted(time: f64, a: u32, stamp_a: u32) -> Predicted {
         Predicted { time, kind: Kind::Impact, a, b: BodyId::of_dynamic(a + 1), stamp_a, stamp_b: 0 }
@@ -175,13 +176,8 @@ mod tests {
     /// Random pushes, pops and changes of stamps, against a list that is searched anew each time.
     #[test]
     fn gives_what_a_searched_list_gives() {
-        let mut seed = 0x2545_f491_4f6c_dd1d_u64;
-        let mut random = move |below: u64| {
-            seed ^= seed << 13;
-            seed ^= seed >> 7;
-            seed ^= seed << 17;
-            (seed >> 11) % below
-        };
+        let mut source = Random::new(1);
+        let mut random = move |below: usize| source.below(below);
         let mut queue = Queue::default();
         let mut list: Vec<Predicted> = Vec::new();
         let mut stamps = [0_u32; 50];
@@ -195,7 +191,7 @@ mod tests {
                     queue.push(next);
                     list.push(next);
                 }
-                2 => stamps[random(50) as usize] += 1,
+                2 => stamps[random(50)] += 1,
                 _ => {
                     let until = random(60) as f64 * 0.25;
                     let holds = |p: &Predicted| stamps[p.a as usize] == p.stamp_a;

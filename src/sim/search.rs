@@ -15,11 +15,11 @@ use super::tolerance::{DEPENDENT, ENTERING, LEFT_OVER, ONE_DIRECTION, SHARING};
 /// Turns a motion into the nearest one in which no link enters faster than its limit, and those of `both`
 /// neither enter nor leave.
 pub(super) fn search(links: &[Link], both: &[bool], inverse_mass: &[f64], motion: &mut [DVec3]) -> Solved {
-    let mut search = Search::new(links, both, inverse_mass, motion, 0.0);
+    let mut search = ActiveSet::new(links, both, inverse_mass, motion, 0.0);
     search.run();
     let mut multipliers = search.multipliers();
     if search.has_shared_loads() {
-        let mut shared = Search::new(links, both, inverse_mass, motion, SHARING);
+        let mut shared = ActiveSet::new(links, both, inverse_mass, motion, SHARING);
         shared.run();
         search.carry_the_rest(motion, &mut shared.multipliers(), &mut multipliers);
     }
@@ -34,7 +34,7 @@ pub(super) fn search(links: &[Link], both: &[bool], inverse_mass: &[f64], motion
 pub(super) fn responses_by_search(links: &[Link], inverse_mass: &[f64]) -> Vec<f64> {
     let still = vec![DVec3::ZERO; inverse_mass.len()];
     let both = vec![true; links.len()];
-    let mut search = Search::new(links, &both, inverse_mass, &still, 0.0);
+    let mut search = ActiveSet::new(links, &both, inverse_mass, &still, 0.0);
     (0..links.len()).for_each(|k| search.meet(k, 1.0));
     let mut responses: Vec<f64> = links.iter().map(|link| link.response(link, inverse_mass)).collect();
     // The rows of the inverse of the triangular factor: (NᵀN)⁻¹ₖₖ = Σ (R⁻¹)²ₖⱼ/‖qⱼ‖².
@@ -80,7 +80,7 @@ fn weight(inverse_mass: f64) -> f64 {
     if inverse_mass > 0.0 { 1.0 / inverse_mass } else { 0.0 }
 }
 
-struct Search<'a> {
+struct ActiveSet<'a> {
     links: &'a [Link],
     both: &'a [bool],
     inverse_mass: &'a [f64],
@@ -97,7 +97,7 @@ struct Search<'a> {
     given_up: Vec<bool>,
 }
 
-impl<'a> Search<'a> {
+impl<'a> ActiveSet<'a> {
     fn new(
         links: &'a [Link],
         both: &'a [bool],

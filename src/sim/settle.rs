@@ -33,7 +33,7 @@ pub(super) fn settle(model: &Model, group: &mut Group) -> Vec<Settling> {
 
     drop_parting(model, group, &mut candidates, &free, &links);
 
-    drop_unpressed(group, &mut candidates, &free, &links);
+    drop_unloaded(group, &mut candidates, &free, &links);
 
     level(group, &mut candidates, &free);
     candidates.iter().map(|candidate| candidate.settling(group)).collect()
@@ -80,7 +80,7 @@ fn slack(model: &Model, group: &Group, member: &Member) -> f64 {
     touch_tolerance(group.bodies.x[member.link.a], model.radius(member.pair.first()))
 }
 
-fn links_of(candidates: &[Candidate], links: &[Link]) -> Vec<Link> {
+fn held_links(candidates: &[Candidate], links: &[Link]) -> Vec<Link> {
     candidates.iter().map(|candidate| links[candidate.member]).collect()
 }
 
@@ -89,7 +89,7 @@ fn links_of(candidates: &[Candidate], links: &[Link]) -> Vec<Link> {
 /// beside a seam returns to both plates at once, and neither holds it for the other.
 fn pressing(group: &Group, candidates: &[Candidate], free: &[DVec3], links: &[Link]) -> Vec<f64> {
     let inverse_mass = &group.bodies.inverse_mass;
-    let held = links_of(candidates, links);
+    let held = held_links(candidates, links);
     let loads = enter_none(&held, inverse_mass, &mut free.to_vec()).multipliers;
     let loaded: Vec<usize> = (0..held.len()).filter(|k| loads[*k] > 0.0).collect();
     let loaded_links: Vec<Link> = loaded.iter().map(|k| held[*k]).collect();
@@ -194,9 +194,9 @@ fn drop_parting(
 
 /// Drops contacts that nothing presses together while the others hold. One that lasted before ends by an event
 /// of its own.
-fn drop_unpressed(group: &Group, candidates: &mut Vec<Candidate>, free: &[DVec3], links: &[Link]) {
+fn drop_unloaded(group: &Group, candidates: &mut Vec<Candidate>, free: &[DVec3], links: &[Link]) {
     loop {
-        let held = links_of(candidates, links);
+        let held = held_links(candidates, links);
         let mut motion = free.to_vec();
         let solved = enter_none(&held, &group.bodies.inverse_mass, &mut motion);
         let mut of = pressed(&held, &solved, &group.bodies.inverse_mass, &motion).into_iter();

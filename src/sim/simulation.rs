@@ -55,7 +55,8 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// Compiles a scene and goes to its start, t = 0. Steps by [`Method::Exact`].
+    /// Compiles a scene and goes to its start, t = 0. Steps by [`Method::Exact`]. A scene in which a body cannot take
+    /// its first step is refused.
     pub fn new(scene: &Scene) -> Result<Self, CompileError> {
         Self::with_method(scene, Method::Exact)
     }
@@ -70,8 +71,8 @@ impl Simulation {
         // Before anything is predicted: what is refused here would take minutes.
         model.start_warnings = monitor::start_warnings(&model, &state)
             .map_err(|problem| CompileError { problems: vec![problem] })?;
-        let fault = start(&model, &mut state).err();
-        Ok(Self { model: Arc::new(model), state, fault })
+        start(&model, &mut state).map_err(|fault| CompileError { problems: vec![fault.of_start()] })?;
+        Ok(Self { model: Arc::new(model), state, fault: None })
     }
 
     /// Geometric warnings about the start: overlaps, bodies outside the map.

@@ -99,10 +99,28 @@ pub(super) const UNCOUPLED: f64 = 1e-12;
 /// start anew at every blow on a neighbour, for ever; larger, soft blows beside hard ones are lost.
 pub(super) const NO_CHANGE: f64 = 64.0 * f64::EPSILON;
 
+/// Rounds of reflections in which contacts that act on each other are thrown back set by set, and how many more for each
+/// contact. Then all contacts are taken in each round, which ends soon; and after as many again the rest is taken
+/// plastically. A blow goes through a row of n balls in n rounds. Fewer, and a light ball between heavy ones, which is
+/// thrown to and fro some π√(M/m) times, is left to rounds that hand the blow on otherwise; more, and an impact at such a
+/// ball lasts for long.
+pub(super) const ROUNDS: usize = 100;
+pub(super) const ROUNDS_PER_CONTACT: usize = 20;
+
+/// Rounds, and more for each contact, before closing speeds that have fallen below the share of a collapse end a group:
+/// what a blow needs to get through it and back. Fewer, and a soft blow that has not arrived yet counts as a collapse;
+/// more, and a collapse is followed to lower speeds.
+pub(super) const ROUNDS_TO_FALL: usize = 4;
+pub(super) const ROUNDS_TO_FALL_PER_CONTACT: usize = 2;
+
 /// Levelling the contacts that last may change a velocity by so many times what the strongest acceleration does in the
 /// flights left out, for each contact: a ball on a stack takes up what parts in all contacts below. Smaller, bounces in
 /// heaps are followed for longer; larger, what carries a body along is stopped.
 pub(super) const MOST_LEVELLED: f64 = 2.0;
+
+/// Bounces up to so many times the height of rest are given to the rule that decides about rest: other bodies may press
+/// more than what drives the two together. Smaller, a ball under others bounces on; larger costs time.
+pub(super) const NEAR_REST: f64 = 2.0;
 
 /// Impacts over which speeds must have fallen for a collapse. Fewer, and a soft touch after a hard blow counts as one;
 /// more, and a steep collapse is followed to where its speeds are rounding.
@@ -118,6 +136,15 @@ pub(super) const MEMORY: f64 = 1.0 - 1.0 / 256.0;
 /// integrator is short against the time in which a smooth force turns round twice. Fewer may overlook that a
 /// contact parts and is pressed again, more cost.
 pub(super) const PRESSURE_SAMPLES: u32 = 8;
+
+/// Edges and corners that lie this near to each other, as a part of the distance from which they are seen, are one: a
+/// rounding or many. Smaller, an edge passes for another by rounding; larger, the two sides of a narrow plate are one.
+pub(super) const SAME_PART: f64 = 1e-9;
+
+/// Of an integrated segment in contact this part at least is gone before it ends where a body rolls on to another part of a
+/// shape. Smaller, a body that rolls along the border of two parts goes on by roundings of time; larger, a bend in its
+/// way may lie inside a step, which is off by a micrometre then.
+pub(super) const LEAST_OF_STEP: f64 = 1e-6;
 
 // The solver of contact constraints.
 

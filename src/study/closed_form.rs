@@ -14,6 +14,8 @@ pub fn throw(start: DVec3, velocity: DVec3, gravity: DVec3, t: f64) -> (DVec3, D
 pub struct Bounces {
     /// Duration of the first fall, s: √(2h/g).
     pub first_fall: f64,
+    /// m/s².
+    pub gravity: f64,
     /// Part of the speed that an impact leaves, e.
     pub restitution: f64,
 }
@@ -21,7 +23,7 @@ pub struct Bounces {
 impl Bounces {
     /// From rest, `height` metres (surface to surface) above the floor; `gravity` in m/s².
     pub fn dropped(height: f64, gravity: f64, restitution: f64) -> Self {
-        Self { first_fall: (2.0 * height / gravity).sqrt(), restitution }
+        Self { first_fall: (2.0 * height / gravity).sqrt(), gravity, restitution }
     }
 
     /// Time of the k-th impact, from 0, s. Flight k lasts 2t₁eᵏ, so it is t₁(1 + 2e(1 − eᵏ)/(1 − e)).
@@ -38,6 +40,24 @@ impl Bounces {
     /// How many impacts come up to `until`, s, where none is lossy.
     pub fn elastic_count(&self, until: f64) -> f64 {
         ((until / self.first_fall + 1.0) / 2.0).floor()
+    }
+
+    /// Height over the floor at a time, m; `gravity` in m/s² as before.
+    pub fn height(&self, t: f64) -> f64 {
+        let fall = 0.5 * self.gravity * (self.first_fall * self.first_fall - t * t);
+        if t <= self.first_fall {
+            return fall;
+        }
+        let (mut since, mut flight) = (t - self.first_fall, 2.0 * self.restitution * self.first_fall);
+        // Shorter ones are lower than any rounding.
+        while flight > f64::EPSILON * self.first_fall {
+            if since <= flight {
+                return 0.5 * self.gravity * since * (flight - since);
+            }
+            since -= flight;
+            flight *= self.restitution;
+        }
+        0.0
     }
 
     /// When all bounces have ended, s: t₁(1 + e)/(1 − e). Infinite without losses.

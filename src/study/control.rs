@@ -37,8 +37,16 @@ impl<'a> Control<'a> {
 
     /// Whether to end now.
     pub fn is_cancelled(&self) -> bool {
-        self.cancel.load(Ordering::Relaxed)
-            || self.deadline.is_some_and(|deadline| Instant::now() >= deadline)
+        self.cancel.load(Ordering::Relaxed) || self.is_late()
+    }
+
+    /// Whether it would end for its time alone.
+    pub(super) fn is_out_of_time(&self) -> bool {
+        !self.cancel.load(Ordering::Relaxed) && self.is_late()
+    }
+
+    fn is_late(&self) -> bool {
+        self.deadline.is_some_and(|deadline| Instant::now() >= deadline)
     }
 
     pub(super) fn begin(&mut self, what: String, start: f64, share: f64) {

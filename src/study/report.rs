@@ -22,6 +22,8 @@ pub struct StudyReport {
     pub points: Vec<RunFigures>,
     /// Ended before everything was done: what is there stands.
     pub cancelled: bool,
+    /// It was its own time limit that ended it, and nobody who cancelled it.
+    pub out_of_time: bool,
     /// The knobs that the figures depend on.
     pub trusted_error: f64,
     pub agreement: f64,
@@ -54,7 +56,7 @@ pub enum HorizonCause {
     ReferenceLimit,
     /// The reference does not know this scene or what comes next in it; the text says what.
     Unknown(String),
-    /// Whoever started the study ended it.
+    /// Whoever started the study ended it, or its time limit did.
     Cancelled,
 }
 
@@ -125,6 +127,7 @@ impl StudyReport {
             horizon: Horizon { time: 0.0, cause: HorizonCause::Cancelled, error: 0.0, impacts: 0 },
             points: Vec::new(),
             cancelled: false,
+            out_of_time: false,
             trusted_error: settings.trusted_error,
             agreement: settings.agreement,
             event_window: settings.event_window,
@@ -137,6 +140,11 @@ impl StudyReport {
     pub fn title(&self) -> String {
         let name = if self.scene.is_empty() { "Scene" } else { &self.scene };
         format!("{name}: speed against error over {} s", super::short(self.until))
+    }
+
+    /// How a study that is not complete ended, to begin a sentence.
+    pub(super) fn ended(&self) -> &'static str {
+        if self.out_of_time { "Out of time" } else { "Cancelled" }
     }
 
     /// How far the reference is trusted, and why no further, as a sentence.
@@ -166,7 +174,8 @@ impl StudyReport {
                  invariants count."
             ),
             HorizonCause::Cancelled => {
-                format!("Cancelled while the reference was at {until}; positions were not compared further.")
+                let ended = self.ended();
+                format!("{ended} while the reference was at {until}; positions were not compared further.")
             }
         }
     }

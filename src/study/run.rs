@@ -42,6 +42,7 @@ pub fn run(
     report.horizon = truth.horizon.clone();
     if report.horizon.cause == HorizonCause::Cancelled {
         report.cancelled = true;
+        report.out_of_time = control.is_out_of_time();
         return Ok(report);
     }
 
@@ -57,6 +58,7 @@ pub fn run(
         }
     }
     report.cancelled |= !time_all(&candidates, scene, settings, &limits, &mut report, control);
+    report.out_of_time = report.cancelled && control.is_out_of_time();
     Ok(report)
 }
 

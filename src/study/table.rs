@@ -6,7 +6,8 @@ use super::{AXES, Axis, RunFigures, Stop, StudyReport, seconds, short};
 pub fn table(report: &StudyReport) -> String {
     let mut text = format!("{}\n{}\n", report.title(), report.horizon_statement());
     if report.cancelled {
-        text += "Cancelled: this is what was done until then.\n";
+        text += report.ended();
+        text += ": this is what was done until then.\n";
     }
     if report.points.is_empty() {
         return text;

@@ -330,6 +330,45 @@ fn a_picture_of_the_window_never_replaces_its_scene() {
     assert_eq!(std::fs::read(&scene).unwrap(), before);
 }
 
+/// Symptom: `--screenshot` of a scene that is not there, or has errors, ended with 0. Expected: exit code 1, and a picture
+/// only where there is something to show.
+#[test]
+fn a_scene_that_does_not_open_is_an_error_of_the_script() {
+    let folder = tempfile::tempdir().unwrap();
+    let picture = folder.path().join("window.png");
+    let (code, said) = scripted(&["no-such.xml", "--screenshot", picture.to_str().unwrap()]);
+    assert_eq!(code, Some(1), "{said}");
+    assert!(said.contains("no-such.xml cannot be opened: "), "{said}");
+    assert!(!picture.exists());
+    let broken = sample_path("invalid/several-problems");
+    let (code, said) = scripted(&[broken.to_str().unwrap(), "--screenshot", picture.to_str().unwrap()]);
+    assert_eq!(code, Some(1), "{said}");
+    assert!(said.contains("error(s)") && picture.exists(), "{said}");
+}
+
+/// Symptom: a step waited 120 ms, and what took longer was not seen by the next. Expected: `event:` finds the events
+/// of the step before, however long that took; and playing does not keep a picture from being taken.
+#[test]
+fn a_step_waits_for_the_one_before() {
+    let folder = tempfile::tempdir().unwrap();
+    let picture = folder.path().join("window.png");
+    let (scene, name) = (sample_path("gas"), picture.to_str().unwrap());
+    let steps = "dt:20,step_forward,event:100,dt:1/60,play_pause";
+    let (code, said) = scripted(&[scene.to_str().unwrap(), "--do", steps, "--screenshot", name]);
+    assert_eq!(code, Some(0), "{said}");
+    assert!(picture.exists());
+}
+
+/// Symptom: `--do` was documented nowhere. Expected: docs/scripts.md lists every command.
+#[test]
+fn the_documentation_lists_every_step() {
+    let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/scripts.md")).unwrap();
+    for row in polyscene::editor::COMMANDS {
+        let line = format!("| `{}` | {} ▸ {} | {} |", row.id, row.menu.label(), row.label, row.help);
+        assert!(text.contains(&line), "docs/scripts.md lacks:\n{line}");
+    }
+}
+
 /// Symptom: `--do dt:0` and `--do select:nosuch` did nothing and ended with 0; `step_forward*-1` was called an
 /// unknown step.
 #[test]

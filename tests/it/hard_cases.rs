@@ -66,6 +66,11 @@ fn collapse_and_stacks_hold() {
 }
 
 #[test]
+fn stepped_groups_hold() {
+    check(18..=18);
+}
+
+#[test]
 fn reversal_distance_and_trouble_at_load_hold() {
     check(20..=22);
 }

@@ -4,11 +4,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Each layer and what it may import, besides itself. ARCHITECTURE.md says what each holds.
-const LAYERS: [(&str, &[&str]); 9] = [
+const LAYERS: [(&str, &[&str]); 10] = [
+    ("random", &[]),
     ("scene", &[]),
-    ("sim", &["scene"]),
+    ("sim", &["random", "scene"]),
     ("record", &["scene", "sim"]),
-    ("study", &["scene", "sim", "record"]),
+    ("study", &["random", "scene", "sim", "record"]),
     ("view", &["scene", "sim", "record", "study"]),
     ("render", &["scene", "sim", "record", "study", "view"]),
     ("editor", &["scene", "sim", "record", "study", "view"]),

@@ -119,6 +119,8 @@ mod sim_range;
 mod sim_roots;
 // Scenes scaled by powers of two in length, time and mass give the scaled bits.
 mod sim_scale;
+// Seams and edges under bodies whose way is integrated: no ghost impacts, no kink inside a step.
+mod sim_seams;
 // The thesis's own scene against the reference, and its invariants over a minute.
 mod sim_thesis;
 // Contact scenes from seeds: seams, corners, squeezes, slots, pits, heaps, at any size.

@@ -5,7 +5,7 @@ use polyscene::scene::Scene;
 use polyscene::sim::Simulation;
 
 use crate::common::build::{Build, Shaped, ball, empty, plate};
-use crate::common::drive::{Sampling, advance, impacts, simulation, state_of, watch};
+use crate::common::drive::{Sampling, advance, impacts, run, simulation, state_of, watch};
 
 const GRAVITY: f64 = 9.81;
 
@@ -123,4 +123,30 @@ fn a_slide_up_a_slope_in_air_turns_round_on_time() {
     let speed = -state_of(&sim, 2).velocity.dot(up);
     assert!((speed - back).abs() <= 1e-11, "{speed} {back}");
     assert!(residual <= 1e-11, "{residual:e}");
+}
+
+/// Symptom: a ball at rest in air, without gravity, was a fault as soon as another hit it: "the integrator's step has shrunk
+/// to nothing". Expected: equal elastic balls exchange their velocities, and each one's way is ln(1 + kvt)/k. Cause: its
+/// steps at rest were 1e100 s long, and the first after the hit began from that.
+#[test]
+fn a_ball_that_stands_in_air_can_be_hit() {
+    let density = 5.0;
+    let k = 0.5 * 0.5 * density * std::f64::consts::PI * 0.25;
+    for speed in [1e-6, 0.3, 1.0, 1e3] {
+        let scene = empty().air(density).ball(1, dvec3(2.0, 5.0, 5.0), DVec3::X * speed).ball(
+            2,
+            dvec3(4.0, 5.0, 5.0),
+            DVec3::ZERO,
+        );
+        // After a metre of way; then for as long again and more.
+        let hit = (libm::exp(k) - 1.0) / (k * speed);
+        let after = speed / (1.0 + k * speed * hit);
+        let end = run(&scene, 2.0 * hit, Sampling::Every(hit / 3.0));
+        let [first, second] = [0, 1].map(|ball| end.states[ball].1);
+        let way = libm::log1p(k * after * hit) / k;
+        assert_eq!(end.events.len(), 1, "{speed} m/s: {:?}", end.events);
+        assert!((end.events[0].time / hit - 1.0).abs() <= 1e-11, "{speed} m/s: at {} s", end.events[0].time);
+        assert!((second.position.x - 4.0 - way).abs() <= 1e-11, "{speed} m/s: {}", second.position);
+        assert!((first.position.x - 3.0).abs() <= 1e-11, "{speed} m/s: {}", first.position);
+    }
 }

@@ -326,12 +326,10 @@ fn edits_apply_inside_a_step_and_end_it() {
 }
 
 #[test]
-fn a_field_that_is_not_finite_is_a_fault_with_the_bodys_name() {
+fn a_field_that_is_not_finite_is_refused_with_the_bodys_name() {
     let scene = empty().attractor(DVec3::splat(5.0), 1e308).ball(1, dvec3(5.0, 5.0, 5.0 + 1e-9), DVec3::ZERO);
     for method in STEPPING {
-        let mut sim = simulation(&scene, method);
-        sim.begin(1.0);
-        let fault = sim.finish(&mut |_, _| {}).unwrap_err();
-        assert!(fault.message.contains("body 1"), "{fault}");
+        let problems = Simulation::with_method(&scene, method).unwrap_err().problems;
+        assert!(problems[0].message.contains("body 1") && problems[0].is_error(), "{problems:?}");
     }
 }

@@ -70,9 +70,10 @@ fn random_scene() -> impl Strategy<Value = Scene> {
                 plate(key, position, rotation, [a, b])
             });
         }
-        // Far corners: then no plate has the whole scene on one side.
-        scene.bodies.push(ball(90, DVec3::ZERO, 0.1));
-        scene.bodies.push(ball(91, DVec3::splat(10.0), 0.1));
+        // Far corners: then no plate has the whole scene on one side. None looks smaller than four points, for that is
+        // picked as if it were as large (seen: a ball of 0.1 m in the far corner, in one of five thousand scenes).
+        scene.bodies.push(ball(90, DVec3::ZERO, 0.3));
+        scene.bodies.push(ball(91, DVec3::splat(10.0), 0.3));
         scene
     })
 }
@@ -165,6 +166,24 @@ fn a_speck_can_be_hit() {
     scene.bodies.push(ball(1, DVec3::splat(5.0), 1e-6));
     let input = ViewInput::new(&scene, front_camera(), viewport());
     assert_eq!(keys(&input, dvec2(0.004, 0.0)), [1]);
+}
+
+/// What looks smaller than four points is picked as if it were as large, at any distance.
+#[test]
+fn a_speck_is_as_large_as_four_points_in_perspective_too() {
+    let camera = Camera { projection: Projection::Perspective, ..Camera::default() };
+    for at in [DVec3::splat(5.0), DVec3::ZERO, dvec3(9.0, 2.0, 8.0), DVec3::splat(10.0)] {
+        let mut scene = empty();
+        scene.bodies.push(ball(1, at, 1e-6));
+        let input = ViewInput::new(&scene, camera, viewport());
+        let seen = camera.project(at, viewport().aspect()).unwrap().truncate();
+        // 800×600 points are 2×2 in these coordinates; off the axis a sphere looks a little wider.
+        for (points, expected) in [(0.0, &[1][..]), (3.7, &[1]), (4.6, &[])] {
+            for off in [dvec2(points / 400.0, 0.0), dvec2(0.0, -points / 300.0)] {
+                assert_eq!(keys(&input, seen + off), expected, "{points} points off {at}");
+            }
+        }
+    }
 }
 
 #[test]

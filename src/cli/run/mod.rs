@@ -27,9 +27,9 @@ use crate::sim::{EventKind, Method};
 /// Simulate a scene from t = 0 and write states, events and a summary
 ///
 /// All quantities are in SI units: metres, seconds, kilograms, joules. Δt only says when to look: events
-/// and states are the same bits for every Δt, unless --method asks for one that steps by Δt. The TimeSpeed of the file is for watching and scales nothing
-/// here. Without an output on standard output a summary for people is printed. A run that
-/// --max-events or --max-wall stops writes the state it reached.
+/// and states are the same bits for every Δt, unless --method asks for one that steps by Δt. The TimeSpeed of
+/// the file is for watching and scales nothing here. Without an output on standard output a summary for people
+/// is printed. A run that --max-events, --max-wall or Ctrl-C stops writes the state it reached.
 #[derive(Debug, Args)]
 #[command(after_help = examples(), after_long_help = long_help())]
 pub struct RunArgs {
@@ -62,8 +62,14 @@ pub struct RunArgs {
     events: Option<PathBuf>,
 
     /// Write the scene with the positions and velocities of the last state
+    ///
+    /// What --max-events, --max-wall or Ctrl-C stop is written too, but not the state of a fault. `-` is standard output.
     #[arg(long = "final", value_name = "FILE.xml")]
     final_scene: Option<PathBuf>,
+
+    /// Let --final replace a file, be it the scene itself
+    #[arg(long, requires = "final_scene")]
+    force: bool,
 
     /// Print one JSON object that sums the run up to standard output
     #[arg(long)]
@@ -115,7 +121,7 @@ pub(super) fn run(args: &RunArgs) -> Result<(), CliError> {
     } else if !args.writes_to_stdout() {
         summary.print_for_people(&name)?;
     }
-    if let (Ending::Finished | Ending::Exceeded(_), Some(target)) = (&ending, &final_scene) {
+    if let (false, Some(target)) = (matches!(ending, Ending::Faulted(_)), &final_scene) {
         target.write(&examined.document, &sim)?;
     }
     match ending {
@@ -146,12 +152,26 @@ fn refuse_clashing_outputs(args: &RunArgs) -> Result<(), CliError> {
     let all: Vec<_> = json.into_iter().chain(args.outputs()).collect();
     output::refuse_shared(&all)?;
     for (option, path) in args.outputs() {
-        // `--final` replaces the file in one go after it was read; rows would destroy it at once.
-        if option != "--final" && output::overwrites(path, &args.scene) {
-            return Err(CliError::Usage(format!("{option} would overwrite the scene {}", shown_path(path))));
+        // With --force the file is replaced in one go after it was read; rows would destroy it at once.
+        let forced = option == "--final" && args.force;
+        if !forced && output::overwrites(path, &args.scene) {
+            let way_out = if option == "--final" { "; --force lets it" } else { "" };
+            let text = format!("{option} would overwrite the scene {}{way_out}", shown_path(path));
+            return Err(CliError::Usage(text));
         }
     }
-    Ok(())
+    match &args.final_scene {
+        Some(path) if !args.force && holds_something(path) => Err(CliError::Usage(format!(
+            "--final would overwrite {}: give another name, or --force",
+            shown_path(path)
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// A scene is somebody's work; rows are not. What holds no bytes, such as a fresh temporary file or a device, is no loss.
+fn holds_something(path: &Path) -> bool {
+    !is_stdout(path) && path.metadata().is_ok_and(|metadata| metadata.is_file() && metadata.len() > 0)
 }
 
 fn examples() -> &'static str {

@@ -4,10 +4,10 @@ use glam::DVec3;
 
 use super::SegmentError;
 use super::control::{Limits, are_sound};
-use super::plunge::{Way, way_on};
+use super::plunge::{Onward, way_on};
 use super::radau::{RadauStart, radau_step};
 use super::smoothness::drag_of;
-use super::tolerance::{FOR_EVER, INSIDE, LONGEST_STEP};
+use super::tolerance::{FARTHEST_HINT, FOR_EVER, INSIDE, LONGEST_STEP};
 use crate::sim::books::book_segment;
 use crate::sim::force::Law;
 use crate::sim::model::Model;
@@ -122,18 +122,19 @@ fn integrated(
     let column = state.fields.get(body as usize).copied().unwrap_or_default();
     let goes_on = old.step > 0.0 && old.end == time && !old.constrained;
     let from = match way_on(model, state, body, time, start) {
-        Way::Back(step) => {
+        Onward::Back(step) => {
             let (segment, series) = *step;
             return Ok((segment, Some(FieldColumn { series, next_step: segment.step })));
         }
-        Way::On(from) => from,
+        Onward::On(from) => from,
     };
+    let is_known = goes_on || FARTHEST_HINT * model.radius(body) >= column.next_step * from.v.length();
     let start = RadauStart {
         time,
         place: from.place,
         v: from.v,
         reads_position: model.forces.iter().any(|force| matches!(force.law, Law::Custom(_))),
-        step: column.next_step,
+        step: if is_known { column.next_step } else { 0.0 },
         previous: goes_on.then_some((&column.series, old.step)),
         radius: model.radius(body),
         drag: drag_of(model, body),

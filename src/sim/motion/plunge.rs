@@ -16,7 +16,7 @@ use crate::sim::state::State;
 use crate::sim::way_in::{Leg, Plunge, Point, Turn};
 
 /// How a body in a field goes on.
-pub(super) enum Way {
+pub(super) enum Onward {
     /// By the next step of its way back.
     Back(Box<(Segment, Series)>),
     /// By a step of the integrator.
@@ -24,7 +24,13 @@ pub(super) enum Way {
 }
 
 /// How a body goes on from (x, v). What it does is remembered if it leads into an attractor.
-pub(super) fn way_on(model: &Model, state: &mut State, body: u32, time: f64, (x, v): (DVec3, DVec3)) -> Way {
+pub(super) fn way_on(
+    model: &Model,
+    state: &mut State,
+    body: u32,
+    time: f64,
+    (x, v): (DVec3, DVec3),
+) -> Onward {
     if let Some(way) = way_back(state, body, time, v) {
         return way;
     }
@@ -32,7 +38,7 @@ pub(super) fn way_on(model: &Model, state: &mut State, body: u32, time: f64, (x,
     let path = state.path(body);
     let place = path.place(time);
     let goes_on = path.series.is_some() && place.x == x;
-    Way::On(Point { place: if goes_on { place } else { Place::exact(x) }, v })
+    Onward::On(Point { place: if goes_on { place } else { Place::exact(x) }, v })
 }
 
 /// Turns a body back on its way at the core; false where the way can't be retraced.
@@ -84,7 +90,7 @@ fn is_reversible(model: &Model) -> bool {
 }
 
 /// The next step of a body on its way back, or where that ends; `None` for one that is not, or was disturbed.
-fn way_back(state: &mut State, body: u32, time: f64, v: DVec3) -> Option<Way> {
+fn way_back(state: &mut State, body: u32, time: f64, v: DVec3) -> Option<Onward> {
     let turn = state.plunges.get(&body)?.back?;
     let now = state.velocity(body, time);
     if turn.time != time || state.segments[body as usize].step == 0.0 || (v != now && v != -now) {
@@ -94,12 +100,12 @@ fn way_back(state: &mut State, body: u32, time: f64, v: DVec3) -> Option<Way> {
     let plunge = state.plunges.get_mut(&body)?;
     let Some(leg) = plunge.legs.pop() else {
         state.plunges.remove(&body);
-        return Some(Way::On(turn.from));
+        return Some(Onward::On(turn.from));
     };
     let reversed = reversed(&leg, time, &turn.from);
     let from = Point { place: Place { x: leg.segment.x, low: leg.series.low }, v: -leg.segment.v };
     plunge.back = Some(Turn { time: reversed.0.end, from });
-    Some(Way::Back(Box::new(reversed)))
+    Some(Onward::Back(Box::new(reversed)))
 }
 
 /// The same way from its end to its start: a'(s) = a(1 − s).

@@ -49,6 +49,11 @@ pub(super) const RESOLUTION: f64 = 1e-15;
 /// A step that had to be cut to less than this part of the first one tried has no end either.
 pub(super) const SHORTEST_PART: f64 = 1e-18;
 
+/// After an impact the step of the motion before is tried first, unless it would carry the body more than so many radii:
+/// one that stood still had steps without end, which say nothing about a body that flies. Smaller asks the field more
+/// often, larger cuts steps down from where none can be long enough.
+pub(super) const FARTHEST_HINT: f64 = 1e6;
+
 /// How far ahead the field is looked at for a first step: the way in it, as part of the body's radius. Shorter
 /// loses the change of the field to rounding, longer may look past what changes.
 pub(super) const PROBE: f64 = 1.0 / 1024.0;

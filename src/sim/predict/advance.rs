@@ -12,7 +12,7 @@ use crate::sim::tolerance::{ADVANCES_BEFORE_SKIP, MOST_ADVANCES};
 
 /// Where a search starts and ends, and what bounds it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Search {
+pub(super) struct Span {
     pub from: f64,
     pub until: f64,
     /// Upper bound of the relative acceleration, m/s²; `None` if it is constant, along parabolas.
@@ -37,7 +37,7 @@ pub(super) enum Skip {
 /// When the search takes too many steps it gives the time reached, which is not later than the contact:
 /// whoever handles the event looks at the gap again. `skip` says how it may go on at a time.
 pub(super) fn first_contact(
-    search: Search,
+    search: Span,
     gap_at: impl Fn(f64) -> Gap,
     skip: impl Fn(f64) -> Skip,
 ) -> Option<f64> {

@@ -66,8 +66,8 @@ pub(super) fn first_contact(ball: Ball<'_>, target: Target<'_>, from: f64) -> Op
 pub(super) fn gap(ball: Ball<'_>, target: Target<'_>, time: f64) -> Gap {
     match target {
         Target::Dynamic(other) | Target::Sphere(other) => sphere_sphere::gap(ball, other, time),
-        Target::Plate(plate) => sphere_convex::gap(ball, |point| plate.nearest(point), time),
-        Target::Convex(shape, at) => sphere_convex::gap(ball, |point| shape.nearest(at, point), time),
+        Target::Plate(plate) => sphere_plate::gap(ball, plate, time),
+        Target::Convex(shape, at) => sphere_convex::gap(ball, |point, _| shape.nearest(at, point), time),
     }
 }
 

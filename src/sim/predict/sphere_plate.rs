@@ -5,15 +5,15 @@ use glam::DVec3;
 
 use super::advance::Skip;
 use super::approach::{Across, Approach, Way, gone_after};
-use super::gap::{Ball, snap, touch_tolerance};
-use super::sphere_convex::search;
+use super::gap::{Ball, Gap, snap, touch_tolerance};
+use super::sphere_convex::{self, search};
 use crate::sim::roots::first_root;
-use crate::sim::shape::Plate;
+use crate::sim::shape::{Feature, Near, Plate};
 use crate::sim::tolerance::STILL;
 
 pub(super) fn first_contact(ball: Ball<'_>, plate: &Plate, from: f64) -> Option<f64> {
     let seg = ball.path.segment;
-    let slack = ball.tolerance().max(touch_tolerance(plate.center, ball.radius));
+    let slack = slack(ball, plate);
     let mut from = seg.start.max(from);
     // Along a parabola the time at which the sphere reaches the plane of the plate has a closed form. It
     // is the contact if the foot lies on the plate, and not later than any contact if it does not.
@@ -32,7 +32,37 @@ pub(super) fn first_contact(ball: Ball<'_>, plate: &Plate, from: f64) -> Option<
             }
         }
     }
-    search(ball, |point| plate.nearest(point), from, slack, |time| skip(ball, plate, slack, time))
+    let seen = |at: DVec3, velocity: DVec3| seen(plate, ball.radius, slack, at, velocity);
+    search(ball, seen, from, slack, |time| skip(ball, plate, slack, time))
+}
+
+/// The gap of a sphere and a plate at a time.
+pub(super) fn gap(ball: Ball<'_>, plate: &Plate, time: f64) -> Gap {
+    let slack = slack(ball, plate);
+    sphere_convex::gap(ball, |at, velocity| seen(plate, ball.radius, slack, at, velocity), time)
+}
+
+/// Rounding of the distance between the two, m.
+fn slack(ball: Ball<'_>, plate: &Plate) -> f64 {
+    ball.tolerance().max(touch_tolerance(plate.center, ball.radius))
+}
+
+/// What of a plate a sphere meets. One that glides in the plane of a face towards its edge glides on over the face: whether
+/// it is a rounding h too low for that can't be told, and by the edge it would then be hit at the speed v √(2h/r),
+/// which is no rounding of v any more.
+fn seen(plate: &Plate, radius: f64, slack: f64, at: DVec3, velocity: DVec3) -> Near {
+    let near = plate.nearest(at);
+    if near.feature == Feature::Face || near.distance - radius > slack {
+        return near;
+    }
+    let height = plate.local_of(at).z;
+    let towards = if height < 0.0 { plate.normal } else { -plate.normal };
+    let inward = near.towards - near.towards.dot(towards) * towards;
+    if (height.abs() - radius).abs() > slack || inward.dot(velocity) <= 0.0 {
+        return near;
+    }
+    let distance = height.abs();
+    Near { distance, towards, feature: Feature::Face, to_center: distance }
 }
 
 /// What isolating the root tells from a time on.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::advance::{Search, Skip, first_contact as advance};
+use super::advance::{Skip, Span, first_contact as advance};
 use super::approach::{Across, Approach, Way, gone_after};
 use super::gap::{Ball, Gap, snap, snap_pressure};
 use crate::sim::segment::{Path, Segment};
@@ -20,7 +20,7 @@ struct Relative {
     drives: f64,
 }
 
-/// `slack` as of [`Search`]; most pairs need none.
+/// `slack` as of [`Span`]; most pairs need none.
 pub(super) fn first_contact(a: Ball<'_>, b: Ball<'_>, from: f64, slack: impl FnOnce() -> f64) -> Option<f64> {
     let (seg_a, seg_b) = (a.path.segment, b.path.segment);
     let from = seg_a.start.max(seg_b.start).max(from);
@@ -34,13 +34,13 @@ pub(super) fn first_contact(a: Ball<'_>, b: Ball<'_>, from: f64, slack: impl FnO
         return tau.map(|tau| from + tau).filter(|time| *time <= until);
     }
     let acceleration_bound = (!parabolas).then(|| relative_bound(a.path, b.path));
-    let search = Search { from, until, acceleration_bound, slack: slack() };
+    let search = Span { from, until, acceleration_bound, slack: slack() };
     advance(search, |time| gap(a, b, time), |time| skip(a, b, search, time))
 }
 
 /// What isolating the root tells from a time on.
 #[cold]
-pub(super) fn skip(a: Ball<'_>, b: Ball<'_>, search: Search, time: f64) -> Skip {
+pub(super) fn skip(a: Ball<'_>, b: Ball<'_>, search: Span, time: f64) -> Skip {
     let relative = relative(a, b, time);
     let (reach, mut until) = (a.radius + b.radius, search.until);
     if search.acceleration_bound.is_none() {
@@ -95,7 +95,7 @@ pub(in crate::sim) fn surely_pass(a: &Segment, b: &Segment, reach: f64, near: f6
 }
 
 pub(super) fn gap(a: Ball<'_>, b: Ball<'_>, time: f64) -> Gap {
-    gap_of(&relative(a, b, time), a.path.position(time), a.radius, b.radius)
+    gap_between(&relative(a, b, time), a.path.position(time), a.radius, b.radius)
 }
 
 fn relative(a: Ball<'_>, b: Ball<'_>, time: f64) -> Relative {
@@ -110,7 +110,7 @@ fn relative(a: Ball<'_>, b: Ball<'_>, time: f64) -> Relative {
     }
 }
 
-fn gap_of(relative: &Relative, at: DVec3, radius_a: f64, radius_b: f64) -> Gap {
+fn gap_between(relative: &Relative, at: DVec3, radius_a: f64, radius_b: f64) -> Gap {
     let (distance, normal) = direction(relative.position);
     let rate = normal.dot(relative.velocity);
     let across = relative.velocity - rate * normal;

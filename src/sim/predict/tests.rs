@@ -4,30 +4,13 @@ use std::cell::Cell;
 
 use glam::DVec3;
 
-use super::advance::{Search, Skip, first_contact as advance};
+use super::advance::{Skip, Span, first_contact as advance};
 use super::{Ball, Gap, Target, first_contact, gap};
 use super::{sphere_plate, sphere_sphere};
+use crate::random::Random;
 use crate::sim::segment::{Path, Segment, Series};
 use crate::sim::shape::Plate;
 use crate::sim::tolerance::{ADVANCES_BEFORE_SKIP, TOUCH};
-
-/// Numbers from a seed (Knuth's linear congruence), of which the upper bits are good.
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn range(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    fn vector(&mut self, size: f64) -> DVec3 {
-        DVec3::from_array(std::array::from_fn(|_| self.range(-size, size)))
-    }
-}
 
 /// A ball on a parabola until `end`.
 fn flight(x: DVec3, v: DVec3, a: DVec3, end: f64) -> Segment {
@@ -75,7 +58,7 @@ fn isolated(ball: Ball<'_>, target: Target<'_>, end: f64) -> Skip {
         Target::Plate(plate) => sphere_plate::skip(ball, plate, slack, 0.0),
         Target::Sphere(other) | Target::Dynamic(other) => {
             let acceleration_bound = ball.path.series.map(|_| ball.path.segment.acceleration_bound);
-            let search = Search { from: 0.0, until: end, acceleration_bound, slack };
+            let search = Span { from: 0.0, until: end, acceleration_bound, slack };
             sphere_sphere::skip(ball, other, search, 0.0)
         }
         Target::Convex(..) => Skip::Unknown,
@@ -113,7 +96,7 @@ fn target_name(target: Target<'_>) -> String {
 
 #[test]
 fn random_parabolas_agree_with_samples() {
-    let (mut random, mut hits) = (Random(7), 0);
+    let (mut random, mut hits) = (Random::new(7), 0);
     for _ in 0..600 {
         let radius = random.range(0.05, 0.5);
         let (start, aim) = (random.vector(1.0).normalize() * 4.0, random.vector(1.3));
@@ -134,7 +117,7 @@ fn random_parabolas_agree_with_samples() {
 
 #[test]
 fn random_paths_through_fields_agree_with_samples() {
-    let (mut random, mut hits) = (Random(11), 0);
+    let (mut random, mut hits) = (Random::new(11), 0);
     for _ in 0..300 {
         let radius = random.range(0.05, 0.5);
         let (start, aim) = (random.vector(1.0).normalize() * 4.0, random.vector(1.3));
@@ -222,12 +205,8 @@ fn what_parts_tangentially_meets_again_only_where_it_comes_back() {
                 flight(at + reach * out, (9.8 * cos * reach).sqrt() * along, -9.8 * DVec3::Z, f64::INFINITY);
             let moving = ball(&way, radius);
             let steps = Cell::new(0);
-            let search = Search {
-                from: 0.0,
-                until: f64::INFINITY,
-                acceleration_bound: None,
-                slack: moving.tolerance(),
-            };
+            let search =
+                Span { from: 0.0, until: f64::INFINITY, acceleration_bound: None, slack: moving.tolerance() };
             let found = advance(
                 search,
                 |time| {

@@ -19,6 +19,11 @@ pub(in crate::sim) trait Convex {
     /// What a point sees of it: the nearest feature.
     fn nearest(&self, at: DVec3, point: DVec3) -> Near;
 
+    /// Whether it is one part, which bends alike everywhere.
+    fn is_one_part(&self) -> bool {
+        false
+    }
+
     /// The sides of its flat faces: a body lies on a face where axis·x ≤ limit for each (axis, limit in m).
     fn sides(&self) -> Vec<(DVec3, f64)> {
         Vec::new()

@@ -9,7 +9,7 @@ mod plate;
 mod sphere;
 
 pub(super) use convex::Convex;
-pub(super) use near::{Near, Surface};
+pub(super) use near::{Feature, Near, Part, Surface};
 pub(super) use plate::Plate;
 pub(super) use sphere::{Sphere, direction};
 

@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::sim::tolerance::SAME_PART;
+
 /// What a point sees of a shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::sim) struct Near {
@@ -26,6 +28,41 @@ pub(in crate::sim) enum Feature {
     Corner,
 }
 
+/// An edge or a corner by itself, as if the shape went on so: smooth where the shape has another part.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::sim) struct Part {
+    /// A point round which it bends, m.
+    center: DVec3,
+    /// How deep that lies in the shape, m.
+    depth: f64,
+    feature: Feature,
+}
+
+impl Part {
+    /// Whether this is what is nearest to a point, which sees `near` of the shape.
+    pub fn is_seen(&self, near: &Near, point: DVec3) -> bool {
+        let off = self.across(point + near.to_center * near.towards);
+        near.feature == self.feature && off.length() <= SAME_PART * near.to_center
+    }
+
+    /// What a point sees of it.
+    pub fn seen_from(&self, point: DVec3) -> Near {
+        let way = -self.across(point);
+        let to_center = way.length();
+        let towards = way / to_center.max(f64::MIN_POSITIVE);
+        Near { distance: to_center - self.depth, towards, feature: self.feature, to_center }
+    }
+
+    /// The way to a point, without what leads along an edge.
+    fn across(&self, point: DVec3) -> DVec3 {
+        let way = point - self.center;
+        match self.feature {
+            Feature::Edge(along) => way - way.dot(along) * along,
+            Feature::Face | Feature::Corner => way,
+        }
+    }
+}
+
 /// What is touched.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::sim) enum Surface {
@@ -46,6 +83,12 @@ impl Near {
         };
         (across - across.dot(self.towards) * self.towards).length_squared()
             / self.to_center.max(f64::MIN_POSITIVE)
+    }
+
+    /// The part that a point sees.
+    pub fn part(&self, point: DVec3) -> Part {
+        let center = point + self.to_center * self.towards;
+        Part { center, depth: self.to_center - self.distance, feature: self.feature }
     }
 
     pub fn surface(&self) -> Surface {

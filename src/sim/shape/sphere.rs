@@ -25,6 +25,10 @@ impl Convex for Sphere {
         (at.clamp(low, high) - at).length() <= self.radius
     }
 
+    fn is_one_part(&self) -> bool {
+        true
+    }
+
     fn nearest(&self, at: DVec3, point: DVec3) -> Near {
         let (to_center, towards) = direction(at - point);
         Near { distance: to_center - self.radius, towards, feature: Feature::Corner, to_center }

@@ -5,23 +5,23 @@ use super::trial;
 use crate::sim::fault::Fault;
 use crate::sim::method::Method;
 use crate::sim::model::Model;
-use crate::sim::open_step::{Hit, OpenStep, PairSearch, Search, SetSearch};
+use crate::sim::open_step::{Collisions, Hit, OpenStep, PairSearch, SetSearch};
 use crate::sim::state::State;
 
 /// Opens a Δt from `state.now` to `state.until` unless one is open: that one keeps its end.
 pub(in crate::sim) fn plan(state: &mut State) {
     if state.step.is_none() && state.until > state.now {
-        state.step = Some(Box::new(OpenStep { end: state.until, search: Search::Planned }));
+        state.step = Some(Box::new(OpenStep { end: state.until, search: Collisions::Planned }));
     }
 }
 
 /// The table of contents of a Δt; each call does one line of it. False when `state.until` is reached.
 pub(in crate::sim) fn advance(model: &Model, state: &mut State) -> Result<bool, Fault> {
     let Some(mut step) = state.step.take() else { return Ok(false) };
-    if let Search::Planned = step.search {
+    if let Collisions::Planned = step.search {
         step.search = match model.method {
-            Method::Fixed => Search::Pairs(PairSearch::begin(model, state, step.end)),
-            _ => Search::Sets(SetSearch::begin(model, state, step.end)),
+            Method::Fixed => Collisions::Pairs(PairSearch::begin(model, state, step.end)),
+            _ => Collisions::Sets(SetSearch::begin(model, state, step.end)),
         };
         state.step = Some(step);
         return Ok(true);
@@ -45,7 +45,7 @@ pub(in crate::sim) fn advance(model: &Model, state: &mut State) -> Result<bool, 
     }
 }
 
-impl Search {
+impl Collisions {
     fn earliest(&self) -> Option<Hit> {
         match self {
             Self::Planned => None,

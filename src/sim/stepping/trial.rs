@@ -64,9 +64,10 @@ fn acceleration(model: &Model, state: &mut State, at: &Subject<'_>) -> DVec3 {
 fn replace(model: &Model, state: &mut State, body: u32, segment: Segment) -> Result<(), Fault> {
     // The squares too: an infinite length compares with nothing.
     if ![segment.x, segment.v, segment.a].iter().all(|vector| vector.length_squared().is_finite()) {
-        let name = &model.dynamic(body).identity.name;
+        let identity = &model.dynamic(body).identity;
+        let name = &identity.name;
         let message = format!("body {name}: position, velocity or force is not a finite number");
-        return Err(Fault { time: segment.start, message });
+        return Err(Fault { time: segment.start, message, key: Some(identity.key) });
     }
     book_segment(model, state, body, segment.start);
     state.segments[body as usize] = segment;

@@ -92,6 +92,7 @@ mod tests {
     use glam::DVec3;
 
     use super::*;
+    use crate::random::Random;
     use crate::scene::Map;
 
     /// Every tile of random boxes, against going through the tiles one by one.
@@ -99,13 +100,8 @@ mod tests {
     fn a_box_is_its_tiles() {
         let counts = [9, 30, 5];
         let grid = Grid::new(&Map { size: DVec3::ONE, tiles: counts }, 0.0);
-        let mut seed = 0x2545_f491_4f6c_dd1d_u64;
-        let mut random = move |below: u32| {
-            seed ^= seed << 13;
-            seed ^= seed >> 7;
-            seed ^= seed << 17;
-            ((seed >> 11) % u64::from(below)) as u32
-        };
+        let mut source = Random::new(1);
+        let mut random = move |below: u32| source.below(below as usize) as u32;
         let mut range = || {
             let ends = counts.map(|count| {
                 let (a, b) = (random(count), random(count));

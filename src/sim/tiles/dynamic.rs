@@ -187,19 +187,15 @@ mod tests {
     use glam::DVec3;
 
     use super::*;
+    use crate::random::Random;
     use crate::scene::Map;
 
     /// Random moves of many bodies in a few tiles, against sets by tile.
     #[test]
     fn lists_are_those_of_sets_by_tile() {
         let grid = Grid::new(&Map { size: DVec3::ONE, tiles: [6, 5, 9] }, 0.0);
-        let mut seed = 0x9e37_79b9_7f4a_7c15_u64;
-        let mut random = move |below: u32| {
-            seed ^= seed << 13;
-            seed ^= seed >> 7;
-            seed ^= seed << 17;
-            ((seed >> 11) % u64::from(below)) as u32
-        };
+        let mut source = Random::new(1);
+        let mut random = move |below: u32| source.below(below as usize) as u32;
         let mut range = || {
             let low = grid.counts.map(&mut random);
             let high = std::array::from_fn(|axis| (low[axis] + random(3)).min(grid.counts[axis] - 1));

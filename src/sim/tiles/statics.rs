@@ -166,24 +166,10 @@ mod tests {
     use glam::DQuat;
 
     use super::*;
+    use crate::random::Random;
     use crate::scene::NodeKey;
     use crate::sim::body::{Body, Identity};
     use crate::sim::shape::{Plate, Shape, Sphere};
-
-    struct Random(u64);
-
-    impl Random {
-        fn unit(&mut self) -> f64 {
-            self.0 ^= self.0 << 13;
-            self.0 ^= self.0 >> 7;
-            self.0 ^= self.0 << 17;
-            (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-        }
-
-        fn vector(&mut self, low: f64, high: f64) -> DVec3 {
-            DVec3::from_array(std::array::from_fn(|_| low + (high - low) * self.unit()))
-        }
-    }
 
     fn only(position: DVec3, shape: Shape) -> Bodies {
         let mut bodies = Bodies::default();
@@ -198,8 +184,8 @@ mod tests {
     }
 
     fn random_plate(random: &mut Random) -> (Bodies, Plate) {
-        let center = random.vector(-2.0, 12.0);
-        let turn = random.vector(-3.0, 3.0);
+        let center = 5.0 + random.vector(7.0);
+        let turn = random.vector(3.0);
         let frame = DQuat::from_scaled_axis(turn);
         let plate = Plate {
             center,
@@ -215,7 +201,7 @@ mod tests {
     /// Every point of a plate lies in a tile that lists it; a listed tile has a point near the plate.
     #[test]
     fn plates_are_in_the_tiles_they_touch_and_in_no_others() {
-        let mut random = Random(7);
+        let mut random = Random::new(7);
         for counts in [[1, 1, 1], [10, 10, 10], [7, 31, 3]] {
             let grid = Grid::new(&Map { size: DVec3::splat(10.0), tiles: counts }, 0.0);
             for _ in 0..60 {
@@ -284,10 +270,10 @@ mod tests {
     fn many_bodies_over_fine_tiles_coarsen_the_grid() {
         let map = Map { size: DVec3::splat(1000.0), tiles: [65536; 3] };
         let fine = Grid::new(&map, 0.01);
-        let mut random = Random(11);
+        let mut random = Random::new(11);
         let mut bodies = Bodies::default();
         for _ in 0..20_000 {
-            let at = random.vector(0.0, 1000.0);
+            let at = 500.0 + random.vector(500.0);
             add(&mut bodies, at, Shape::Sphere(Sphere { radius: 0.1 + random.unit() }));
         }
         let grid = coarse_enough(fine, &map, &bodies, 4096);

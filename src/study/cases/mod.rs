@@ -14,6 +14,7 @@ mod corners;
 mod far;
 mod flight;
 mod gas;
+mod heaps;
 mod hits;
 mod load;
 mod orbits;
@@ -60,6 +61,12 @@ pub const CASES: &[&Case] = &[
     &stacks::PYRAMID_4,
     &stacks::PYRAMID_4_BOUNCY,
     &stacks::PYRAMID_6,
+    &heaps::RAFT,
+    &heaps::CLUSTER,
+    &heaps::COLUMN,
+    &heaps::MIRROR,
+    &heaps::DROP_300,
+    &heaps::DROP_1000,
     &reversal::REVERSAL,
     &far::FAR,
     &load::OVERLAP,

@@ -41,6 +41,59 @@ fn geometry_at_the_start_is_checked_too() {
     }
 }
 
+/// Symptom: a ball on an attractor passed the check, and its run ended with "energy NaN". Expected: an error with its
+/// line and the way out, and no run. The same for any body that cannot take its first step.
+#[test]
+fn a_body_that_cannot_begin_is_an_error_with_its_line() {
+    let bench = Bench::new();
+    let attractor = |gravity: &str| {
+        let force = format!(
+            "<GravityPoint UserID=\"2\"><Translation X=\"5\" Y=\"5\" Z=\"5\" />\
+             <Gravity F32=\"{gravity}\" /></GravityPoint>\n    </Forces>"
+        );
+        BOUNCE.replace("</Forces>", &force)
+    };
+    bench.write("on.xml", attractor("10"));
+    bench.write("on-repeller.xml", attractor("-10"));
+    bench.write(
+        "in-core.xml",
+        attractor("10").replace(r#"<Translation X="5" Y="5""#, r#"<Translation X="5,0000001" Y="5""#),
+    );
+    bench.write(
+        "strong.xml",
+        attractor("1e300").replace(r#"<Translation X="5" Y="5""#, r#"<Translation X="4" Y="5""#),
+    );
+    for name in ["on.xml", "on-repeller.xml", "strong.xml"] {
+        let checked = bench.polyscene(&["check", name]);
+        assert_eq!(checked.code, 1, "{name}: {}", checked.stderr);
+        let place = format!("{name}:14:5: error: body 7: ");
+        assert!(checked.stdout.starts_with(&place) && checked.stdout.contains("; "), "{}", checked.stdout);
+        let run = bench.polyscene(&["run", name, "--until", "1", "--json"]);
+        assert_eq!((run.code, run.stdout.as_str()), (1, ""), "{name}: {}", run.stderr);
+        assert!(run.stderr.contains(&place) && !run.stderr.contains("NaN"), "{}", run.stderr);
+    }
+}
+
+/// Symptom: "and 5 more overlaps" stood before the first overlap.
+#[test]
+fn what_sums_up_problems_comes_after_them() {
+    let bench = Bench::new();
+    let balls: String = (0..30)
+        .map(|id| {
+            format!(
+                "<SoftObject UserID=\"{}\"><Translation X=\"5\" Y=\"{}\" Z=\"5\"/><Sphere><Radius F32=\"0,5\"/></Sphere></SoftObject>",
+                id + 100,
+                3.0 + 0.01 * f64::from(id)
+            )
+        })
+        .collect();
+    bench.write("heap.xml", BOUNCE.replace("</Primitives>", &format!("{balls}</Primitives>")));
+    let checked = bench.polyscene(&["check", "heap.xml"]);
+    let lines: Vec<&str> = checked.stdout.lines().collect();
+    let more = lines.iter().position(|line| line.contains("more overlaps")).expect("more than are listed");
+    assert_eq!(more, lines.len() - 1, "{}", checked.stdout);
+}
+
 #[test]
 fn several_files_share_one_verdict() {
     let bench = Bench::with_scene(BOUNCE);

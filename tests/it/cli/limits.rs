@@ -57,6 +57,10 @@ fn the_wall_clock_ends_a_run_and_a_study() {
         assert!(since.elapsed() < Duration::from_secs(5), "{arguments:?} took {:?}", since.elapsed());
     }
     assert!(bench.read("figures.csv").starts_with("method"), "the report of what was done");
+    // Symptom: a study that ran out of time said that it was cancelled.
+    let study = ["study", "scene.xml", "--until", "1000", "--dt", "1e-6", "--max-wall", "0.3"];
+    let text = bench.polyscene(&study).stdout;
+    assert!(text.contains("Out of time: this is what was done") && !text.contains("ancelled"), "{text}");
 }
 
 #[test]

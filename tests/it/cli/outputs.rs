@@ -91,6 +91,44 @@ fn a_picture_never_replaces_its_scene() {
     assert_eq!(bench.read("scene.xml"), BOUNCE);
 }
 
+/// Symptom: `--final` replaced the scene, or another, without a word. Expected: it asks for `--force`, by whatever name
+/// the scene is called; a file without bytes is no loss.
+#[test]
+fn a_last_state_replaces_a_scene_only_by_force() {
+    let bench = Bench::with_scene(BOUNCE);
+    bench.write("other.xml", "work");
+    bench.write("empty.xml", "");
+    std::fs::hard_link(bench.path("scene.xml"), bench.path("twin.xml")).expect("a hard link");
+    for (target, hint) in [
+        ("scene.xml", "--final would overwrite the scene scene.xml; --force"),
+        ("twin.xml", "--final would overwrite the scene twin.xml; --force"),
+        ("other.xml", "--final would overwrite other.xml: give another name, or --force"),
+    ] {
+        refused(&bench, &[&RUN[..], &["--final", target]].concat(), hint);
+    }
+    assert_eq!((bench.read("scene.xml").as_str(), bench.read("other.xml").as_str()), (BOUNCE, "work"));
+    let forced = |target| bench.polyscene(&[&RUN[..], &["--final", target, "--force"]].concat());
+    for target in ["other.xml", "twin.xml", "scene.xml"] {
+        let outcome = forced(target);
+        assert_eq!(outcome.code, 0, "{target}: {}", outcome.stderr);
+        assert!(bench.read(target).contains("<!-- kept -->") && bench.read(target) != BOUNCE, "{target}");
+    }
+    assert_eq!(bench.polyscene(&[&RUN[..], &["--final", "empty.xml"]].concat()).code, 0);
+    refused(&bench, &[&RUN[..], &["--force"]].concat(), "--final");
+}
+
+#[cfg(feature = "render")]
+#[test]
+fn a_picture_may_go_to_standard_output() {
+    let bench = Bench::with_scene(BOUNCE);
+    let render = ["render", "scene.xml", "--size", "64x48", "--overlays", "none", "-o"];
+    let output = bench.command(&[&render[..], &["-"]].concat()).output().expect("the program starts");
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let picture = image::load_from_memory(&output.stdout).expect("a picture");
+    assert_eq!((picture.width(), picture.height()), (64, 48));
+    assert!(!bench.path("-").exists());
+}
+
 #[cfg(feature = "render")]
 #[test]
 fn a_picture_in_no_folder_is_refused_in_words() {
@@ -214,7 +252,7 @@ fn a_file_that_changed_during_the_run_is_not_overwritten() {
     let made = std::process::Command::new("mkfifo").arg(bench.path("scene.fifo")).status();
     assert!(made.is_ok_and(|status| status.success()));
     bench.write("x.xml", "before");
-    let run = ["run", "scene.fifo", "--until", "1", "--final", "x.xml"];
+    let run = ["run", "scene.fifo", "--until", "1", "--final", "x.xml", "--force"];
     let child = bench.command(&run).stderr(std::process::Stdio::piped()).spawn().expect("the program starts");
     // Opening waits for the program, which by then has looked at x.xml.
     let mut scene = std::fs::OpenOptions::new().write(true).open(bench.path("scene.fifo")).expect("a pipe");
@@ -234,8 +272,8 @@ fn a_file_that_changed_during_the_run_is_not_overwritten() {
 fn an_energy_that_is_no_number_is_told() {
     let bench = Bench::with_scene(
         &BOUNCE
-            .replace("Weight F32=\"2\"", "Weight F32=\"1E308\"")
-            .replace("InitialVelocity X=\"0\"", "InitialVelocity X=\"1000\""),
+            .replace("Weight F32=\"2\"", "Weight F32=\"1E300\"")
+            .replace("InitialVelocity X=\"0\"", "InitialVelocity X=\"1E5\""),
     );
     let outcome = bench.polyscene(&["run", "scene.xml", "--until", "0.1", "--json"]);
     assert!(outcome.stderr.contains("beyond the largest number"), "{}", outcome.stderr);
@@ -254,7 +292,7 @@ fn a_saved_file_keeps_its_owner_and_mode() {
     let path = bench.path("scene.xml");
     std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o640)).expect("a mode");
     let given = chown(&path, Some(1234), Some(4321)).is_ok();
-    let outcome = bench.polyscene(&[&RUN[..], &["--final", "scene.xml"]].concat());
+    let outcome = bench.polyscene(&[&RUN[..], &["--final", "scene.xml", "--force"]].concat());
     assert_eq!(outcome.code, 0, "{}", outcome.stderr);
     let about = std::fs::metadata(&path).expect("the file");
     assert_eq!(about.mode() & 0o777, 0o640);

@@ -55,7 +55,8 @@ fn ctrl_c_leaves_whole_lines() {
     assert_eq!(code, Some(130));
     assert!(complaint.contains("interrupted at t = "), "{complaint}");
     assert!(!rows(&bench.read("states.jsonl")).is_empty());
-    assert!(!bench.path("final.xml").exists(), "the end was never reached");
+    // Symptom: --final was not written. Expected: the state reached.
+    assert!(bench.read("final.xml").contains("<SoftObject") && bench.read("final.xml") != BOUNCE);
 }
 
 #[test]

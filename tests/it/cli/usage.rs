@@ -7,7 +7,7 @@ use super::{BOUNCE, Bench};
 #[test]
 fn bad_arguments_are_refused_with_the_way_out() {
     let bench = Bench::with_scene(BOUNCE);
-    let cases: [(&[&str], &str); 21] = [
+    let cases: [(&[&str], &str); 23] = [
         (&["run", "scene.xml"], "--until"),
         (&["run", "scene.xml", "--dt", "1"], "--until"),
         (&["run", "scene.xml", "--dt", "0", "--until", "1"], "more than 0"),
@@ -27,6 +27,8 @@ fn bad_arguments_are_refused_with_the_way_out() {
         (&["run", "scene.xml", "--until", "1", "--method", "thesis"], "--dt"),
         (&["run", "scene.xml", "--until", "1", "--max-events", "0"], "--max-events"),
         (&["run", "scene.xml", "--until", "1", "--max-wall", "-1"], "more than 0"),
+        (&["everyday", "--e", "-1"], "from 0 to 1"),
+        (&["everyday", "--n", "-1"], "1..="),
         (&["check"], "FILE"),
         (&["scene.xml", "run"], "run"),
     ];
@@ -75,6 +77,7 @@ fn help_names_every_verb_option_and_kind_of_event() {
         "--states",
         "--events",
         "--final",
+        "--force",
         "--json",
         "--max-events",
         "--max-wall",

@@ -71,6 +71,47 @@ pub fn contact_scene(family: Family, seed: u64) -> ContactScene {
     ContactScene { what: format!("{family:?}, seed {seed}"), scene, until, most_events }
 }
 
+/// What a scene stands in besides its own gravity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Surroundings {
+    Nothing,
+    /// Air as thick as four times that on Earth.
+    Air,
+    /// A point attractor some metres away, with half the pull of gravity and less.
+    Attractor,
+    Both,
+}
+
+impl Surroundings {
+    pub const ALL: [Self; 4] = [Self::Nothing, Self::Air, Self::Attractor, Self::Both];
+}
+
+/// The same scene in air or a field: all motion is integrated then.
+pub fn surrounded(from: &ContactScene, by: Surroundings) -> ContactScene {
+    let mut scene = from.scene.clone();
+    if matches!(by, Surroundings::Air | Surroundings::Both) {
+        scene = scene.air(5.0);
+    }
+    if matches!(by, Surroundings::Attractor | Surroundings::Both) {
+        scene = scene.attractor(dvec3(0.7, -3.1, 0.4), 40.0);
+    }
+    let what = format!("{}, in {by:?}", from.what);
+    ContactScene { what, scene, until: from.until, most_events: from.most_events }
+}
+
+/// The same scene with masses from 1 to `ratio` times as large, by a seed.
+pub fn weighted(from: &ContactScene, ratio: f64, seed: u64) -> ContactScene {
+    let mut random = Random::new(seed);
+    let mut scene = from.scene.clone();
+    for body in &mut scene.bodies {
+        if let Motion::Dynamic { mass, .. } = &mut body.motion {
+            *mass *= libm::pow(ratio, random.unit());
+        }
+    }
+    let what = format!("{}, masses 1 : {ratio:e}", from.what);
+    ContactScene { what, scene, until: from.until, most_events: from.most_events }
+}
+
 /// The same scene with all lengths `length` times as long and all times `time` times as long.
 pub fn scaled(from: &ContactScene, length: f64, time: f64) -> ContactScene {
     let mut scene = from.scene.clone();
@@ -87,8 +128,13 @@ pub fn scaled(from: &ContactScene, length: f64, time: f64) -> ContactScene {
         }
     }
     for force in &mut scene.forces {
-        if let ForceKind::GravityPlane { acceleration, .. } = &mut force.kind {
-            *acceleration *= length / (time * time);
+        match &mut force.kind {
+            ForceKind::GravityPlane { acceleration, .. } => *acceleration *= length / (time * time),
+            ForceKind::GravityPoint { position, intensity } => {
+                *position *= length;
+                *intensity *= length * length * length / (time * time);
+            }
+            ForceKind::Drag { density } => *density /= length * length * length,
         }
     }
     let what = format!("{}, lengths times {length:e}, times times {time:e}", from.what);

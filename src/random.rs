@@ -1,4 +1,4 @@
-//! Seeded random numbers (xorshift64*), the same on every platform: for cases and tests.
+//! Seeded random numbers (xorshift64*), the same on every platform: for cases, tests and benches.
 
 use glam::DVec3;
 
