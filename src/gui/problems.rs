@@ -7,7 +7,7 @@ use super::colors::tones;
 use super::context::{AppContext, Message};
 use super::theme::ROW_HEIGHT;
 use super::widgets::{cell, mono, severity_icon};
-use crate::editor::{self, Action, Problem, ProblemSource};
+use crate::editor::{Action, Command, Fix, Problem, ProblemSource};
 use crate::scene::Severity;
 
 /// Keeps the list, which is made again only when document or frame changed.
@@ -82,6 +82,7 @@ fn place(problem: &Problem) -> String {
     match (problem.position, problem.source) {
         (Some((line, column)), _) => format!("{line}:{column}"),
         (None, ProblemSource::Run) => "run".to_owned(),
+        (None, ProblemSource::Scene) => "scene".to_owned(),
         (None, ProblemSource::Simulation) => "start".to_owned(),
         (None, ProblemSource::Document) => "file".to_owned(),
     }
@@ -99,9 +100,12 @@ fn object(row: &mut egui_extras::TableRow<'_, '_>, context: &AppContext<'_>, pro
 }
 
 fn fix_button(ui: &mut Ui, context: &AppContext<'_>, problem: &Problem) {
-    let Some(info) = problem.fix.and_then(editor::info) else { return };
-    if ui.small_button(info.label).on_hover_text(info.help).clicked() {
-        context.outbox.command(info.command);
+    let Some(fix) = problem.fix else { return };
+    if ui.small_button(fix.label()).on_hover_text(fix.help()).clicked() {
+        match fix {
+            Fix::Mend(mend) => context.outbox.act(Action::Mend(mend)),
+            Fix::Reset => context.outbox.command(Command::Reset),
+        }
     }
 }
 
@@ -110,10 +114,11 @@ fn click(response: &egui::Response, context: &AppContext<'_>, problem: &Problem)
     else {
         return;
     };
-    if response.clicked() {
-        context.outbox.act(Action::Select(vec![key]));
-    }
+    let keys: Vec<_> = [key].into_iter().chain(problem.others.iter().copied()).collect();
     if response.double_clicked() {
-        context.outbox.send(Message::Frame(vec![key]));
+        context.outbox.send(Message::Frame(keys.clone()));
+    }
+    if response.clicked() {
+        context.outbox.act(Action::Select(keys));
     }
 }

@@ -1,0 +1,24 @@
+//! The copies made last: the next ones go on by the same step.
+
+use glam::DVec3;
+
+use crate::scene::{NodeKey, Scene};
+
+/// The copies made last, so that the next ones go on from them.
+#[derive(Clone, Debug)]
+pub(super) struct LastCopies {
+    /// The first that was copied, and the copies in its order.
+    pub original: NodeKey,
+    pub copies: Vec<NodeKey>,
+}
+
+impl LastCopies {
+    /// From the originals to the copies as they lie now, if these are what is selected.
+    pub fn step(&self, scene: &Scene, selected: &[NodeKey]) -> Option<DVec3> {
+        let place = |key| scene.bodies.iter().find(|body| body.key == key).map(|body| body.position);
+        let first = *self.copies.first()?;
+        let step =
+            (selected == self.copies).then(|| Some(place(first)? - place(self.original)?)).flatten()?;
+        (step != DVec3::ZERO).then_some(step)
+    }
+}
