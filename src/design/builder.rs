@@ -72,6 +72,13 @@ impl Builder {
         self.add(name, Body { bounce, ..Body::new(0, at, motion, Shape::Sphere { radius }) });
     }
 
+    /// Keeps what was added last out of the views; it takes part all the same.
+    pub fn hide_last(&mut self) {
+        if let Some(Edit::AddBody(body)) = self.edits.last_mut() {
+            body.hidden = true;
+        }
+    }
+
     /// As [`Self::ball`], outside of the group.
     pub fn ball_alone(&mut self, name: &str, ball: &Ball) {
         let group = self.group.take();

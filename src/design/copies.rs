@@ -1,12 +1,15 @@
 //! Where copies go: beside their originals, clear of everything.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use glam::DVec3;
 
 use super::extent::Extent;
 use super::gap::{gap, tolerance};
+use super::moving::shifted;
 use super::place::round;
 use super::plan::Plan;
-use crate::scene::{Body, Edit, Force, Names, NodeKey, Scene};
+use crate::scene::{Body, BodyChange, BodyCopy, Edit, Force, Names, NodeKey, Scene};
 
 /// Multiples of a step that are tried along each axis.
 const MULTIPLES: usize = 32;
@@ -14,11 +17,59 @@ const MULTIPLES: usize = 32;
 /// Copies of these bodies and forces. `step` is the offset of the copies made before, which goes on as long as it
 /// leads to a free place; else they go the shortest way along an axis that is clear.
 pub fn duplicate(scene: &Scene, keys: &[NodeKey], step: Option<DVec3>) -> Plan {
-    let chosen: std::collections::BTreeSet<NodeKey> = keys.iter().copied().collect();
+    let chosen: BTreeSet<NodeKey> = keys.iter().copied().collect();
     let bodies: Vec<&Body> = scene.bodies.iter().filter(|body| chosen.contains(&body.key)).collect();
     let offset = clear_offset(scene, &bodies, step);
     let what = if keys.len() == 1 { "1 object".to_owned() } else { format!("{} objects", keys.len()) };
-    Plan::new(format!("Duplicate {what}"), vec![Edit::Duplicate { keys: keys.to_vec(), offset }])
+    let groups = whole_groups(scene, &chosen);
+    let edits = if groups.is_empty() {
+        vec![Edit::Duplicate { keys: keys.to_vec(), offset }]
+    } else {
+        grouped_copies(scene, keys, offset, &groups)
+    };
+    Plan::new(format!("Duplicate {what}"), edits)
+}
+
+/// Outermost groups all of which is copied, with the names that their copies get.
+fn whole_groups(scene: &Scene, chosen: &BTreeSet<NodeKey>) -> BTreeMap<String, String> {
+    let bodies = scene.bodies.iter().map(|body| (&body.group, body.key));
+    let forces = scene.forces.iter().map(|force| (&force.group, force.key));
+    let mut is_whole = BTreeMap::<&str, bool>::new();
+    for (group, key) in bodies.chain(forces) {
+        if let Some(outermost) = group.as_deref().and_then(|group| group.split('/').next()) {
+            *is_whole.entry(outermost).or_insert(true) &= chosen.contains(&key);
+        }
+    }
+    let mut names = Names::new(is_whole.keys().copied());
+    let whole = is_whole.into_iter().filter(|(_, whole)| *whole);
+    whole.map(|(group, _)| (group.to_owned(), names.take(group))).collect()
+}
+
+/// Copies whose groups are groups of their own.
+fn grouped_copies(
+    scene: &Scene,
+    keys: &[NodeKey],
+    offset: DVec3,
+    groups: &BTreeMap<String, String>,
+) -> Vec<Edit> {
+    let renamed = |group: &Option<String>| {
+        let group = group.as_deref()?;
+        let outermost = group.split('/').next().unwrap_or(group);
+        let new = groups.get(outermost).map_or(outermost, String::as_str);
+        Some(format!("{new}{}", group.strip_prefix(outermost).unwrap_or_default()))
+    };
+    let bodies: BTreeMap<NodeKey, &Body> = scene.bodies.iter().map(|body| (body.key, body)).collect();
+    let copies = keys.iter().filter_map(|key| bodies.get(key)).map(|body| BodyCopy {
+        of: body.key,
+        changes: vec![BodyChange::Position(body.position + offset), BodyChange::Group(renamed(&body.group))],
+    });
+    let mut names = Names::new(scene.forces.iter().filter_map(|force| force.name.as_deref()));
+    let forces = scene.forces.iter().filter(|force| keys.contains(&force.key)).map(|force| {
+        let kind = shifted(force.kind, offset).unwrap_or(force.kind);
+        let name = force.name.as_deref().map(|name| names.take(name));
+        Edit::AddForce(Box::new(Force { kind, name, group: renamed(&force.group), ..force.clone() }))
+    });
+    [Edit::CopyBodies(copies.collect())].into_iter().chain(forces).collect()
 }
 
 /// The bodies and forces of another scene: in place, or where they are clear of this one.

@@ -54,6 +54,8 @@ pub enum Action {
     /// What a tool made of the values that the window asked for.
     Apply(Plan),
     Mend(Mend),
+    /// All that can be put right.
+    MendAll,
     /// The window got the keyboard back: other programs may have changed the file.
     LookAtDisk,
 }

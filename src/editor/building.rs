@@ -60,14 +60,31 @@ impl Session {
         }
     }
 
+    /// Puts right all that can be, as one undo step, and tells what was done.
+    pub(super) fn mend_all(&mut self) -> Outcome {
+        self.settle();
+        let (document, done) = match design::mend_all(self.document()) {
+            Ok(mended) => mended,
+            Err(reason) => return Outcome::Refused(reason.to_string()),
+        };
+        if done.is_empty() {
+            return Outcome::Refused("There is nothing that could be put right".to_owned());
+        }
+        self.history.push(document, "Put all right".to_owned(), None);
+        self.document_changed();
+        self.notices.push(Notice::info(format!("This {}", done.join(", "))));
+        Outcome::Done
+    }
+
     /// Copies the selection to a free place beside it; repeated, by the same step, also one made by hand.
     pub(super) fn duplicate(&mut self) -> Outcome {
         let Some(scene) = self.scene() else { return Outcome::no_scene() };
         let keys = self.selection.keys().to_vec();
         let step = self.last_copies.as_ref().and_then(|last| last.step(scene, &keys));
+        let original = keys.iter().copied().find(|key| scene.bodies.iter().any(|body| body.key == *key));
         let plan = design::duplicate(scene, &keys, step);
         let outcome = self.apply_plan(plan);
-        if let (Outcome::Done, Some(original)) = (&outcome, keys.first().copied()) {
+        if let (Outcome::Done, Some(original)) = (&outcome, original) {
             let copies = self.selection.keys().to_vec();
             self.last_copies = Some(LastCopies { original, copies });
         }

@@ -7,7 +7,7 @@ use crate::scene::{NodeKey, Scene};
 /// The copies made last, so that the next ones go on from them.
 #[derive(Clone, Debug)]
 pub(super) struct LastCopies {
-    /// The first that was copied, and the copies in its order.
+    /// The first body that was copied, and the copies in the order of their originals.
     pub original: NodeKey,
     pub copies: Vec<NodeKey>,
 }
@@ -15,10 +15,11 @@ pub(super) struct LastCopies {
 impl LastCopies {
     /// From the originals to the copies as they lie now, if these are what is selected.
     pub fn step(&self, scene: &Scene, selected: &[NodeKey]) -> Option<DVec3> {
-        let place = |key| scene.bodies.iter().find(|body| body.key == key).map(|body| body.position);
-        let first = *self.copies.first()?;
-        let step =
-            (selected == self.copies).then(|| Some(place(first)? - place(self.original)?)).flatten()?;
+        let place = |key: NodeKey| scene.bodies.iter().find(|body| body.key == key).map(|body| body.position);
+        if selected != self.copies {
+            return None;
+        }
+        let step = self.copies.iter().find_map(|key| place(*key))? - place(self.original)?;
         (step != DVec3::ZERO).then_some(step)
     }
 }

@@ -40,6 +40,7 @@ impl Session {
             Action::UseTool(index) => return self.use_tool(index),
             Action::Apply(plan) => return self.apply_plan(plan),
             Action::Mend(mend) => return self.mend(mend),
+            Action::MendAll => return self.mend_all(),
             Action::LookAtDisk => self.look_at_disk(),
         }
         Outcome::Done

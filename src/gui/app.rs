@@ -249,7 +249,9 @@ impl App {
             },
         );
         let area = egui::CentralPanel::no_frame().show(ui, |ui| {
-            self.views.show(ui, &context);
+            // a part is seen in its place before it is made
+            let preview = AppContext { shown: self.dialogs.preview().or(context.shown), ..context };
+            self.views.show(ui, &preview);
             ui.min_rect()
         });
         if !self.start_closed && start::is_wanted(&self.session) && context.session.question().is_none() {

@@ -43,6 +43,7 @@ impl Problems {
             ui.label(text);
             return;
         }
+        let fixes = self.list.iter().filter(|problem| matches!(problem.fix, Some(Fix::Mend(_)))).count();
         let table = TableBuilder::new(ui)
             .id_salt("problems")
             .striped(true)
@@ -54,9 +55,17 @@ impl Problems {
             .column(Column::remainder().clip(true));
         table
             .header(ROW_HEIGHT, |mut header| {
-                for title in ["", "Place", "Object", "Problem", "What to do"] {
+                for title in ["", "Place", "Object", "Problem"] {
                     cell(&mut header, RichText::new(title).small().weak(), "");
                 }
+                header.col(|ui| {
+                    ui.horizontal(|ui| {
+                        ui.label(RichText::new("What to do").small().weak());
+                        if fixes > 1 {
+                            fix_all_button(ui, context);
+                        }
+                    });
+                });
             })
             .body(|body| {
                 body.rows(ROW_HEIGHT, self.list.len(), |mut row| {
@@ -69,8 +78,10 @@ impl Problems {
                     object(&mut row, context, problem);
                     cell(&mut row, RichText::new(&problem.message), &problem.message);
                     row.col(|ui| {
-                        fix_button(ui, context, problem);
-                        ui.label(RichText::new(&problem.hint).weak()).on_hover_text(&problem.hint);
+                        ui.horizontal(|ui| {
+                            fix_button(ui, context, problem);
+                            ui.label(RichText::new(&problem.hint).weak()).on_hover_text(&problem.hint);
+                        });
                     });
                     click(&row.response(), context, problem);
                 });
@@ -106,6 +117,14 @@ fn fix_button(ui: &mut Ui, context: &AppContext<'_>, problem: &Problem) {
             Fix::Mend(mend) => context.outbox.act(Action::Mend(mend)),
             Fix::Reset => context.outbox.command(Command::Reset),
         }
+    }
+}
+
+fn fix_all_button(ui: &mut Ui, context: &AppContext<'_>) {
+    let help =
+        "Makes IDs unique, pushes bodies apart, grows the map and fits the tiles, as far as each is needed";
+    if ui.small_button("Put all right").on_hover_text(help).clicked() {
+        context.outbox.act(Action::MendAll);
     }
 }
 

@@ -195,8 +195,9 @@ fn groups_are_folders_of_the_tree() {
     assert_eq!(window.selected().len(), 5);
     window.key_with(Modifiers::COMMAND, Key::D);
     assert_eq!(window.scene().bodies.len(), 10);
+    assert!(window.scene().bodies[5..].iter().all(|body| body.group.as_deref() == Some("pyramid 2")));
     window.key_with(Modifiers::COMMAND, Key::G);
-    assert!(window.scene().bodies[5..].iter().all(|body| body.group.as_deref() == Some("pyramid/group")));
+    assert!(window.scene().bodies[5..].iter().all(|body| body.group.as_deref() == Some("pyramid 2/group")));
     window.key_with(Modifiers::COMMAND | Modifiers::SHIFT, Key::G);
     assert!(window.scene().bodies[5..].iter().all(|body| body.group.is_none()));
 }
@@ -235,6 +236,12 @@ fn problems_select_what_they_are_about_and_have_their_fix() {
     window.type_number("Tiles y", "40000");
     window.click_role(Role::Button, "Fit tiles");
     assert!(window.has("Problems"));
+    window.type_number("Tiles y", "40000");
+    window.type_number("Size x", "2");
+    window.click_role(Role::Button, "Put all right");
+    assert!(window.has("Problems"));
+    assert!(window.has_containing("enlarged the map"));
+    assert_eq!(window.harness.state().session().undo_label(), Some("Put all right"));
 }
 
 #[test]

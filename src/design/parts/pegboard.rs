@@ -14,7 +14,7 @@ pub const PEGBOARD: Tool = Tool {
     id: "pegboard",
     label: "Pegboard…",
     group: ToolGroup::Part,
-    help: "Adds rows of pegs, every other one shifted by half, between two panes, with two sides and a floor",
+    help: "Adds rows of pegs, every other one shifted by half, between two panes, sides and a floor; the front pane is hidden",
     inputs: &[
         Input { label: "Rows", unit: "", help: "Of pegs", kind: Kind::Whole(1.0, 500.0), default: |_| 8.0 },
         Input {
@@ -71,6 +71,9 @@ pub const PEGBOARD: Tool = Tool {
         ] {
             let plate = Plate { middle: middle - normal * half, normal, across, half: sides, bounce: 0.5 };
             builder.plate(name, &plate);
+            if name == "pane front" {
+                builder.hide_last();
+            }
         }
         for row in 0..rows {
             let in_row = columns - row % 2 * usize::from(columns > 1);

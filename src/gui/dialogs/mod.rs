@@ -10,7 +10,7 @@ mod tool;
 use egui::Context;
 
 use super::accuracy::Export;
-use super::context::AppContext;
+use super::context::{AppContext, Shown};
 use crate::design::Eye;
 use crate::editor::{Action, Command, Request};
 
@@ -60,6 +60,11 @@ impl Dialogs {
     /// Asks for what a tool of [`crate::design::TOOLS`] needs to know.
     pub fn ask_for_tool(&mut self, index: usize, eye: Eye) {
         self.tool = ToolDialog::new(index, eye);
+    }
+
+    /// What the views show while a tool asks: the scene as it would be.
+    pub fn preview(&self) -> Option<&Shown> {
+        self.tool.as_ref().and_then(ToolDialog::preview)
     }
 
     /// Opens a file dialog that the session asks for.

@@ -7,7 +7,7 @@ use egui::{
 use crate::design::{self, Extent, Eye, Given, Input, Kind, Plan, TOOLS, Tool, TroubleKind};
 use crate::editor::{Action, parse_number};
 use crate::gui::colors::tones;
-use crate::gui::context::AppContext;
+use crate::gui::context::{AppContext, Shown};
 use crate::gui::numbers::{count, significant};
 use crate::scene::{Edit, NodeKey, Scene};
 
@@ -26,6 +26,8 @@ pub struct ToolDialog {
     preview: Option<(Asked, Result<Preview, String>)>,
     /// Whether a field had the keyboard at the end of the last turn.
     was_typing: bool,
+    /// Previews made, which number them.
+    previews: u64,
 }
 
 /// What a preview depends on.
@@ -35,12 +37,27 @@ struct Preview {
     plan: Plan,
     text: String,
     warning: Option<String>,
+    /// The scene as it would be, for the views.
+    shown: Option<Shown>,
 }
 
 impl ToolDialog {
     /// `None` for a tool that does not exist.
     pub fn new(index: usize, eye: Eye) -> Option<Self> {
-        Some(Self { tool: TOOLS.get(index)?, eye, values: None, preview: None, was_typing: false })
+        Some(Self {
+            tool: TOOLS.get(index)?,
+            eye,
+            values: None,
+            preview: None,
+            was_typing: false,
+            previews: 0,
+        })
+    }
+
+    /// The scene as it would be with what is asked for.
+    pub fn preview(&self) -> Option<&Shown> {
+        let (_, preview) = self.preview.as_ref()?;
+        preview.as_ref().ok()?.shown.as_ref()
     }
 
     /// Whether it is done with.
@@ -55,7 +72,8 @@ impl ToolDialog {
             .open(&mut open)
             .collapsible(false)
             .resizable(false)
-            .default_pos(ctx.content_rect().left_top() + vec2(250.0, 90.0))
+            // over the tree's lower part, so that the views show what it does
+            .default_pos(ctx.content_rect().left_top() + vec2(12.0, 250.0))
             .show(ctx, |ui| {
                 ui.set_width(320.0);
                 ui.label(RichText::new(self.tool.help).color(tones(ui).weak));
@@ -85,7 +103,9 @@ impl ToolDialog {
         let bits = values.iter().map(|value| value.to_bits()).collect();
         let asked = (session.opened_count(), session.document_state(), given.keys.to_vec(), bits);
         if self.preview.as_ref().is_none_or(|(of, _)| *of != asked) {
-            let preview = self.tool.plan(given, values).map(|plan| preview(context, given, plan));
+            self.previews += 1;
+            let revision = u64::MAX - self.previews;
+            let preview = self.tool.plan(given, values).map(|plan| preview(context, given, plan, revision));
             self.preview = Some((asked, preview));
         }
     }
@@ -113,7 +133,8 @@ impl ToolDialog {
     fn buttons(&self, ui: &mut Ui, plan: Option<&Plan>) -> Option<bool> {
         let mut decided = None;
         let verb = if plan.is_some_and(|plan| plan.added() == 0) { "Apply" } else { "Create" };
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        let row = vec2(ui.available_width(), 24.0);
+        ui.allocate_ui_with_layout(row, Layout::right_to_left(Align::Center), |ui| {
             let button = Button::new(verb).fill(ui.visuals().selection.bg_fill).min_size(vec2(76.0, 24.0));
             let go = ui.add_enabled(plan.is_some(), button);
             if go.on_hover_text("Enter, or Ctrl+Enter while typing").clicked() {
@@ -193,7 +214,7 @@ fn number(ui: &mut Ui, value: &mut f64, speed: f64, range: (f64, f64)) -> egui::
     response
 }
 
-fn preview(context: &AppContext<'_>, given: &Given<'_>, plan: Plan) -> Preview {
+fn preview(context: &AppContext<'_>, given: &Given<'_>, plan: Plan, revision: u64) -> Preview {
     let added = plan.added();
     let changed = plan.edits.len();
     let mut text = match (added, changed) {
@@ -204,18 +225,20 @@ fn preview(context: &AppContext<'_>, given: &Given<'_>, plan: Plan) -> Preview {
         _ => format!("Adds {} objects", count(added as u64)),
     };
     let mut warning = plan.remark.clone();
-    if (1..=MOST_CHECKED).contains(&added) {
-        let after = context.session.document().apply(&Edit::All(plan.edits.clone())).ok();
-        if let Some(after) = after.as_ref().and_then(|after| after.document.scene()) {
-            text.push_str(&size_of_new(given.scene, after));
-            let more = overlaps(after).saturating_sub(overlaps(given.scene));
-            if more > 0 {
-                let pairs = if more == 1 { "pair" } else { "pairs" };
-                warning = Some(format!("{more} more {pairs} of bodies would overlap"));
-            }
+    let shown = (added + changed <= MOST_CHECKED && changed > 0)
+        .then(|| context.session.document().apply(&Edit::All(plan.edits.clone())).ok())
+        .flatten()
+        .and_then(|after| after.document.scene_shared())
+        .map(|after| Shown::new(after, revision));
+    if let Some(after) = &shown {
+        text.push_str(&size_of_new(given.scene, &after.scene));
+        let more = overlaps(&after.scene).saturating_sub(overlaps(given.scene));
+        if more > 0 {
+            let pairs = if more == 1 { "pair" } else { "pairs" };
+            warning = Some(format!("{more} more {pairs} of bodies would overlap"));
         }
     }
-    Preview { plan, text, warning }
+    Preview { plan, text, warning, shown }
 }
 
 /// Size of the box around what was added.
