@@ -110,6 +110,7 @@ fn in_gravity(scene: &Scene) -> Scene {
         id: 1,
         label: "1".into(),
         name: None,
+        group: None,
         hidden: false,
         locked: false,
         kind: ForceKind::GravityPlane { position: DVec3::ZERO, acceleration: GRAVITY },

@@ -28,6 +28,9 @@ window problems invalid/several-problems 'tab:problems' || [ $? -eq 1 ]
 window light cradle 'switch_colors,dt:1/2,step_forward*2,next_event,event:0'
 window palette thesis-appendix-2 'palette'
 window editor thesis-appendix-2 'dt:1,step_forward*5,next_event*3,select:5853'
+window building '' 'build:room,build:rack;Ball radius=0.3;Cue ball=1,view_perspective,select:cue ball'
+window parts '' 'build:table,build:funnel;Place x=2;Place z=2,build:stairs;Place x=7.5;Place z=2,build:pegboard;Place x=2.5;Place z=8,build:container;Place x=7.5;Place z=7.5,build:orbit,select_none,view_perspective,maximize_view'
+window part-dialog '' 'build:room,select_none,rack'
 window accuracy thesis-appendix-2 'tab:accuracy,study'
 window tiles gas 'dt:1/10,step_forward*20,view_perspective,overlay:tiles,maximize_view'
 

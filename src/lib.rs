@@ -2,6 +2,7 @@
 //! accurate every step is. This file is the list of layers; ARCHITECTURE.md tells what each is for.
 
 pub mod cli;
+pub mod design;
 #[cfg(feature = "gui")]
 pub mod editor;
 #[cfg(feature = "gui")]

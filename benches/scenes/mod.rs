@@ -55,6 +55,7 @@ pub fn pile(count: u32, e: f64) -> Scene {
         id: 1,
         label: "1".into(),
         name: None,
+        group: None,
         hidden: false,
         locked: false,
         kind: ForceKind::GravityPlane { position: DVec3::ZERO, acceleration: dvec3(0.0, -9.81, 0.0) },

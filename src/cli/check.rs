@@ -1,28 +1,53 @@
 //! `polyscene check`: every problem of scene files, one per line.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{CliError, input, output};
+use super::{CliError, Examined, input, output};
+use crate::design::{self, TroubleKind};
+use crate::scene::{Diagnostic, Document, FileStamp, Severity, shown_path};
 use crate::sim::Method;
 
 /// Print every problem of scene files
 ///
 /// One line each: `file:line:column: error|warning: text (element path); hint`. Besides the text this
 /// covers what it means and the geometry at the start, such as bodies that overlap.
+///
+/// With --fix what can be put right is, and said: repeated UserIDs, overlaps, bodies outside the map, tiles that are
+/// too fine or too coarse. The problems printed are then those that are left.
 #[derive(Debug, Args)]
-#[command(after_help = "Examples:\n  polyscene check scenes/*.xml\n  polyscene check - < scene.xml")]
+#[command(
+    after_help = "Examples:\n  polyscene check scenes/*.xml\n  polyscene check - < scene.xml\n  polyscene check --fix \
+                  scene.xml -o fixed.xml"
+)]
 pub struct CheckArgs {
     /// Scene files; `-` is standard input
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
+
+    /// Put right what can be, in the files themselves or in that of --output
+    #[arg(long)]
+    fix: bool,
+
+    /// Where the one scene that --fix put right goes
+    #[arg(long, short, value_name = "FILE", requires = "fix")]
+    output: Option<PathBuf>,
 }
 
 pub(super) fn check(args: &CheckArgs) -> Result<(), CliError> {
+    args.refuse_unclear_output()?;
     let (mut errors, mut warnings) = (0, 0);
     for file in &args.files {
-        let examined = input::open(file, Method::Exact)?;
+        let before = FileStamp::of(file);
+        let mut examined = input::open(file, Method::Exact)?;
+        if args.fix {
+            let fixed = fixed(file, &examined.document)?;
+            write(args, file, &before, &examined.document, &fixed)?;
+            examined = input::examine(fixed, Method::Exact);
+        }
+        examined.problems.extend(troubles(&examined));
+        examined.problems.sort_by_key(|problem| problem.position.unwrap_or_default());
         for line in examined.lines(&input::display_name(file)) {
             output::print(format!("{line}\n").as_bytes())?;
         }
@@ -40,6 +65,69 @@ pub(super) fn check(args: &CheckArgs) -> Result<(), CliError> {
     }
     super::say(summary);
     Ok(())
+}
+
+impl CheckArgs {
+    fn refuse_unclear_output(&self) -> Result<(), CliError> {
+        let refusal = match &self.output {
+            Some(_) if self.files.len() > 1 => {
+                "--output takes one scene; without it each file is put right itself"
+            }
+            Some(output) if output::is_stdout(output) => {
+                "--output needs a file: standard output has the problems"
+            }
+            None if self.fix && self.files.iter().any(|file| output::is_stdout(file)) => {
+                "--fix of standard input needs --output FILE"
+            }
+            _ => return Ok(()),
+        };
+        Err(CliError::Usage(refusal.into()))
+    }
+}
+
+/// The scene with all put right that can be; tells what was.
+fn fixed(file: &Path, document: &Document) -> Result<Document, CliError> {
+    let (fixed, done) = design::mend_all(document)
+        .map_err(|error| CliError::Usage(format!("cannot fix {}: {error}", input::display_name(file))))?;
+    for what in done {
+        super::say(format!("{}: {what}", input::display_name(file)));
+    }
+    Ok(fixed)
+}
+
+/// Writes the scene in one go. A file that nothing was changed in, or that another program wrote meanwhile, stays.
+fn write(
+    args: &CheckArgs,
+    file: &Path,
+    before: &FileStamp,
+    document: &Document,
+    fixed: &Document,
+) -> Result<(), CliError> {
+    let to = args.output.as_deref().unwrap_or(file);
+    if args.output.is_none() && (fixed.scene().is_none() || fixed.to_bytes() == document.to_bytes()) {
+        return Ok(());
+    }
+    if args.output.is_none() && FileStamp::of(file) != *before {
+        return Err(CliError::Usage(format!(
+            "{} was changed by another program meanwhile and stays as it is",
+            shown_path(file)
+        )));
+    }
+    fixed.save(to).map_err(|error| CliError::unwritable(to, &error))
+}
+
+/// What the compiler does not look at: tiles and masses.
+fn troubles(examined: &Examined) -> Vec<Diagnostic> {
+    let scene = examined.document.scene().filter(|_| !examined.document.has_errors());
+    let found = scene.map(design::troubles).unwrap_or_default().into_iter();
+    let found = found.filter(|trouble| matches!(trouble.kind, TroubleKind::Tiles | TroubleKind::Masses));
+    let diagnostic = |trouble: design::Trouble| {
+        let key = trouble.keys.first().copied();
+        let (position, path) = key.map(|key| examined.document.place_of(key)).unwrap_or_default();
+        let (severity, message, hint) = (Severity::Warning, trouble.message, trouble.hint);
+        Diagnostic { severity, position, path, message, hint, key }
+    };
+    found.map(diagnostic).collect()
 }
 
 fn counted(count: usize, noun: &str) -> String {

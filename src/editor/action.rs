@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::{Answer, Command, Gesture, Place};
+use crate::design::{Mend, Plan};
 use crate::record::EventRow;
 use crate::scene::{Edit, NodeKey};
 use crate::sim::Method;
@@ -46,6 +47,15 @@ pub enum Action {
     Answer(Answer),
     /// Text from the clipboard.
     Paste(String),
+    /// The same, where it came from.
+    PasteInPlace(String),
+    /// The n-th of [`crate::design::TOOLS`], which asks for nothing.
+    UseTool(usize),
+    /// What a tool made of the values that the window asked for.
+    Apply(Plan),
+    Mend(Mend),
+    /// All that can be put right.
+    MendAll,
     /// The window got the keyboard back: other programs may have changed the file.
     LookAtDisk,
 }

@@ -56,11 +56,27 @@ pub const COMMANDS: &[CommandInfo] = &[
         .runs(Command::Paste)
         .keys(&[Shortcut::ctrl('V')])
         .when(Session::has_scene),
-    row(Menu::Edit, 1, "duplicate", "Duplicate", "Adds a copy of the selection beside it")
-        .runs(Command::Duplicate)
-        .icon('⎘')
-        .keys(&[Shortcut::ctrl('D')])
-        .when(Session::has_selection),
+    row(
+        Menu::Edit,
+        1,
+        "paste_in_place",
+        "Paste in place",
+        "Adds what is on the clipboard at the very places it was copied from",
+    )
+    .runs(Command::PasteInPlace)
+    .keys(&[Shortcut::ctrl_shift('V')])
+    .when(Session::has_scene),
+    row(
+        Menu::Edit,
+        1,
+        "duplicate",
+        "Duplicate",
+        "Adds a copy of the selection at a free place beside it; repeated, by the same step",
+    )
+    .runs(Command::Duplicate)
+    .icon('⎘')
+    .keys(&[Shortcut::ctrl('D')])
+    .when(Session::has_selection),
     row(Menu::Edit, 1, "delete", "Delete", "Removes the selected bodies and forces")
         .runs(Command::Delete)
         .icon('🗑')
@@ -81,6 +97,14 @@ pub const COMMANDS: &[CommandInfo] = &[
         .runs(Command::Rename)
         .keys(&[Shortcut::plain(Key::Function(2))])
         .when(Session::has_selection),
+    row(Menu::Edit, 3, "group", "Group", "Gathers the selection in a group of the scene tree")
+        .runs(Command::Group)
+        .keys(&[Shortcut::ctrl('G')])
+        .when(Session::has_selection),
+    row(Menu::Edit, 3, "ungroup", "Ungroup", "Takes the selection out of its group")
+        .runs(Command::Ungroup)
+        .keys(&[Shortcut::ctrl_shift('G')])
+        .when(Session::has_group),
     row(
         Menu::Edit,
         3,

@@ -1,9 +1,8 @@
 //! Cut, copy and paste: the clipboard holds a small scene file, so that scenes can be put together from
 //! others and text editors see what was copied.
 
-use glam::DVec3;
-
 use super::{Outcome, Request, Session};
+use crate::design;
 use crate::scene::{Document, Edit, NodeKey, NumberStyle, Scene};
 
 impl Session {
@@ -23,27 +22,18 @@ impl Session {
         }
     }
 
-    /// Adds the bodies and forces of a scene given as text, beside what is there.
-    pub(super) fn paste(&mut self, text: &str) -> Outcome {
+    /// Adds the bodies and forces of a scene given as text: clear of what is there, or in their own places.
+    pub(super) fn paste(&mut self, text: &str, in_place: bool) -> Outcome {
+        let in_place = std::mem::take(&mut self.paste_in_place) || in_place;
         let pasted = Document::from_bytes(text.as_bytes());
         let (Some(scene), Some(from)) = (self.scene(), pasted.scene()) else {
             return Outcome::Refused("The clipboard holds no scene".to_owned());
         };
-        let keys: Vec<NodeKey> = from.bodies.iter().map(|body| body.key).collect();
-        let covers =
-            from.bodies.iter().any(|new| scene.bodies.iter().any(|old| old.position == new.position));
-        let offset = if covers { super::creation::offset_of_copy(from, &keys) } else { DVec3::ZERO };
-        let mut edits: Vec<Edit> = from.forces.iter().map(|f| Edit::AddForce(Box::new(f.clone()))).collect();
-        for body in &from.bodies {
-            let mut body = body.clone();
-            body.position += offset;
-            edits.push(Edit::AddBody(Box::new(body)));
-        }
-        if edits.is_empty() {
+        let plan = design::paste(scene, from, in_place);
+        if plan.edits.is_empty() {
             return Outcome::Refused("The clipboard holds a scene without bodies and forces".to_owned());
         }
-        let label = format!("Paste {} objects", edits.len());
-        self.edit_as(&Edit::All(edits), None, Some(label))
+        self.apply_plan(plan)
     }
 }
 

@@ -22,10 +22,17 @@ pub enum Command {
     Cut,
     Copy,
     Paste,
+    /// Where the copies came from.
+    PasteInPlace,
     Duplicate,
     Delete,
     SelectAll,
     SelectNone,
+    /// Gathers the selection in a group of the tree.
+    Group,
+    Ungroup,
+    /// The n-th of [`crate::design::TOOLS`]: at once, or by a dialog that asks for its sizes.
+    Tool(usize),
     Hide,
     ShowAll,
     Lock,

@@ -3,7 +3,8 @@
 use glam::DVec3;
 
 use super::{Command, Outcome, Session};
-use crate::scene::{Body, Edit, Force, ForceKind, Motion, NodeKey, Scene, Shape, rotation_matrix};
+use crate::design;
+use crate::scene::{Body, Edit, Force, ForceKind, Motion, NodeKey, Scene, Shape};
 
 /// Density of air, kg/m³, at 15 °C and sea level rounded as the predecessor had it.
 const AIR_DENSITY: f64 = 1.276;
@@ -53,6 +54,7 @@ fn add_force(scene: &Scene, kind: ForceKind) -> Edit {
         id,
         label: String::new(),
         name: None,
+        group: None,
         hidden: false,
         locked: false,
         kind,
@@ -61,14 +63,14 @@ fn add_force(scene: &Scene, kind: ForceKind) -> Edit {
 
 fn sphere(scene: &Scene, motion: Motion) -> Body {
     // 0.5 m in a map of 10 m
-    let radius = round_to_one_digit(scene.map.size.min_element() / 20.0);
+    let radius = design::round_size(scene.map.size.min_element() / 20.0);
     let position = free_place(scene, radius);
     Body { motion, position, ..blank(scene, Shape::Sphere { radius }) }
 }
 
 /// A level plate in the middle of the map, seen from above.
 fn plane(scene: &Scene) -> Body {
-    let half = round_to_one_digit(scene.map.size.min_element() / 10.0);
+    let half = design::round_size(scene.map.size.min_element() / 10.0);
     Body {
         position: scene.map.size / 2.0,
         rotation: DVec3::new(-std::f64::consts::FRAC_PI_2, 0.0, 0.0),
@@ -106,40 +108,9 @@ fn free_place(scene: &Scene, radius: f64) -> DVec3 {
     let rounded = spiral.map(|place| (place * 1e3).round() / 1e3);
     rounded
         .into_iter()
-        .find(|place| scene.bodies.iter().all(|body| gap(body, *place) > radius))
-        .unwrap_or(middle)
-}
-
-/// Distance from a point to a body's surface, m; negative inside a sphere.
-fn gap(body: &Body, point: DVec3) -> f64 {
-    match &body.shape {
-        Shape::Sphere { radius } => (point - body.position).length() - radius,
-        Shape::Plane { half_x, half_y } => {
-            let local = rotation_matrix(body.rotation).transpose() * (point - body.position);
-            let beyond = DVec3::new(local.x.abs() - half_x, local.y.abs() - half_y, 0.0).max(DVec3::ZERO);
-            DVec3::new(beyond.x, beyond.y, local.z).length()
-        }
-        Shape::Unbuilt { .. } => f64::INFINITY,
-    }
-}
-
-/// Where copies go: beside their originals along x, clear of them.
-pub(super) fn offset_of_copy(scene: &Scene, keys: &[NodeKey]) -> DVec3 {
-    let keys: std::collections::BTreeSet<NodeKey> = keys.iter().copied().collect();
-    let widest = scene
-        .bodies
-        .iter()
-        .filter(|body| keys.contains(&body.key))
-        .map(|body| match body.shape {
-            Shape::Sphere { radius } => 2.0 * radius,
-            _ => 0.0,
+        .find(|place| {
+            let ball = Body::new(0, *place, Motion::Static, Shape::Sphere { radius });
+            design::is_clear(scene, &[&ball], DVec3::ZERO)
         })
-        .fold(0.0, f64::max);
-    let step = if widest > 0.0 { widest * 1.1 } else { scene.map.size.min_element() / 20.0 };
-    DVec3::new(step, 0.0, 0.0)
-}
-
-/// 0.5 for 0.47, so that new things have sizes a person would have typed.
-fn round_to_one_digit(value: f64) -> f64 {
-    format!("{value:.0e}").parse().unwrap_or(value)
+        .unwrap_or(middle)
 }

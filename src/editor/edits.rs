@@ -59,13 +59,6 @@ impl Session {
         }
     }
 
-    pub(super) fn duplicate(&mut self) -> Outcome {
-        let Some(scene) = self.scene() else { return Outcome::no_scene() };
-        let keys = self.selection.keys().to_vec();
-        let offset = super::creation::offset_of_copy(scene, &keys);
-        self.edit(&Edit::Duplicate { keys, offset }, None)
-    }
-
     /// Deletes the selection; locked items stay and are reported.
     pub(super) fn delete(&mut self) -> Outcome {
         let Some(scene) = self.scene() else { return Outcome::no_scene() };

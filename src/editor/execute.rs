@@ -35,7 +35,12 @@ impl Session {
             Action::SaveTo(path) => self.save_to(path),
             Action::DialogCancelled => self.after_save = None,
             Action::Answer(answer) => self.answer(answer),
-            Action::Paste(text) => return self.paste(&text),
+            Action::Paste(text) => return self.paste(&text, false),
+            Action::PasteInPlace(text) => return self.paste(&text, true),
+            Action::UseTool(index) => return self.use_tool(index),
+            Action::Apply(plan) => return self.apply_plan(plan),
+            Action::Mend(mend) => return self.mend(mend),
+            Action::MendAll => return self.mend_all(),
             Action::LookAtDisk => self.look_at_disk(),
         }
         Outcome::Done
@@ -60,11 +65,16 @@ impl Session {
             Command::Redo => self.redo(),
             Command::Cut => return self.cut(),
             Command::Copy => return self.copy(),
-            Command::Paste => self.requests.push(Request::ReadClipboard),
+            Command::Paste | Command::PasteInPlace => {
+                self.paste_in_place = command == Command::PasteInPlace;
+                self.requests.push(Request::ReadClipboard);
+            }
             Command::Duplicate => return self.duplicate(),
             Command::Delete => return self.delete(),
             Command::SelectAll => self.select_all(),
             Command::SelectNone => self.selection.clear(),
+            Command::Group => return self.group(),
+            Command::Ungroup => return self.ungroup(),
             Command::Hide => return self.hide_selection(),
             Command::ShowAll => return self.show_all(),
             Command::Lock => return self.lock_selection(),

@@ -1,9 +1,11 @@
 //! The numbers that the inspector shows and edits, one row of a table each, for one object or several.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use glam::DVec3;
 
+use super::Typed;
+use crate::design::Instance;
 use crate::record::BodyFrame;
 use crate::scene::{Body, BodyChange, Edit, Force, ForceChange, ForceKind, Motion, NodeKey, Scene, Shape};
 
@@ -89,26 +91,52 @@ impl<T, C> Field<T, C> {
     }
 }
 
+impl<T, C> Field<T, C> {
+    /// The changes that set one component of all of these that have it, in the order given. The error names the first
+    /// whose value is refused.
+    fn changes<'a>(
+        &self,
+        of: impl Iterator<Item = &'a T>,
+        axis: usize,
+        typed: &Typed,
+        name: impl Fn(&T) -> String,
+    ) -> Result<Vec<(&'a T, C)>, String> {
+        let having: Vec<(&T, f64)> = of.filter_map(|one| Some((one, self.value(one, axis)?))).collect();
+        let count = having.len();
+        let changes = having.into_iter().enumerate().map(|(index, (one, old))| {
+            let value = typed.value(Instance { old, index, count });
+            let value = value.ok_or_else(|| format!("For {} that is no number", name(one)))?;
+            if !allows(self.range, value) {
+                let (what, must) = (self.label.to_lowercase(), limits(self.range).unwrap_or_default());
+                return Err(format!("For {} that gives {value}: the {what} {must}", name(one)));
+            }
+            Ok(self.change(one, axis, value).map(|change| (one, change)))
+        });
+        Ok(changes.collect::<Result<Vec<_>, String>>()?.into_iter().flatten().collect())
+    }
+}
+
 impl Field<Body, BodyChange> {
-    /// Sets one component of all these bodies that have it.
-    pub fn edit(&self, scene: &Scene, keys: &[NodeKey], axis: usize, value: f64) -> Edit {
-        let keys: BTreeSet<NodeKey> = keys.iter().copied().collect();
-        let chosen = scene.bodies.iter().filter(|body| keys.contains(&body.key));
-        let edits = chosen
-            .filter_map(|body| Some(Edit::Body { key: body.key, change: self.change(body, axis, value)? }));
-        Edit::All(edits.collect())
+    /// Sets one component of all these bodies that have it, in this order.
+    pub fn edit(&self, scene: &Scene, keys: &[NodeKey], axis: usize, typed: &Typed) -> Result<Edit, String> {
+        let all: BTreeMap<NodeKey, &Body> = scene.bodies.iter().map(|body| (body.key, body)).collect();
+        let chosen = keys.iter().filter_map(|key| all.get(key).copied());
+        let changes = self.changes(chosen, axis, typed, |body| body.display_name().to_owned())?;
+        Ok(Edit::All(
+            changes.into_iter().map(|(body, change)| Edit::Body { key: body.key, change }).collect(),
+        ))
     }
 }
 
 impl Field<Force, ForceChange> {
-    /// Sets one component of all these forces that have it.
-    pub fn edit(&self, scene: &Scene, keys: &[NodeKey], axis: usize, value: f64) -> Edit {
-        let keys: BTreeSet<NodeKey> = keys.iter().copied().collect();
-        let chosen = scene.forces.iter().filter(|force| keys.contains(&force.key));
-        let edits = chosen.filter_map(|force| {
-            Some(Edit::Force { key: force.key, change: self.change(force, axis, value)? })
-        });
-        Edit::All(edits.collect())
+    /// Sets one component of all these forces that have it, in this order.
+    pub fn edit(&self, scene: &Scene, keys: &[NodeKey], axis: usize, typed: &Typed) -> Result<Edit, String> {
+        let all: BTreeMap<NodeKey, &Force> = scene.forces.iter().map(|force| (force.key, force)).collect();
+        let chosen = keys.iter().filter_map(|key| all.get(key).copied());
+        let changes = self.changes(chosen, axis, typed, |force| force.label.clone())?;
+        Ok(Edit::All(
+            changes.into_iter().map(|(force, change)| Edit::Force { key: force.key, change }).collect(),
+        ))
     }
 }
 

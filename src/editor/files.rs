@@ -86,7 +86,8 @@ impl Session {
         self.replace(document, OpenFile::at(&path, Some(stamp)), true);
         self.remember(&path);
         if errors > 0 {
-            let text = format!("{} has {errors} errors, see Problems", self.file.title);
+            let noun = if errors == 1 { "error" } else { "errors" };
+            let text = format!("{} has {errors} {noun}, see Problems", self.file.title);
             self.notices.push(Notice::warning(text));
         }
     }
@@ -124,11 +125,15 @@ impl Session {
     fn replace(&mut self, document: Document, file: OpenFile, saved: bool) {
         self.forget_recovery();
         self.drop_run();
+        if file.path.is_none() || file.path != self.file.path {
+            self.forget_method();
+        }
         self.history = History::new(document, saved);
         self.file = file;
         self.selection.clear();
         self.shown_event = None;
         self.after_save = None;
+        self.last_copies = None;
         self.opened += 1;
         self.sync();
     }

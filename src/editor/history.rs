@@ -6,7 +6,7 @@ use std::collections::VecDeque;
 use crate::scene::Document;
 
 /// Most points kept. More than a person goes back through; with [`MAX_BODIES_HELD`] it bounds memory.
-const MAX_POINTS: usize = 256;
+const MAX_POINTS: usize = 4096;
 
 /// Most bodies over all points kept: every point has its own typed scene, about 250 bytes a body, so
 /// this is about half a gigabyte for scenes that are huge to begin with. Two points are always kept.

@@ -38,7 +38,7 @@ fn verb_of(edit: &Edit) -> &'static str {
         Edit::Force { change, .. } => force_verb(change),
         Edit::AddBody(_) => "Add a body",
         Edit::AddForce(_) => "Add a force",
-        Edit::Duplicate { .. } => "Duplicate",
+        Edit::Duplicate { .. } | Edit::CopyBodies(_) => "Duplicate",
         Edit::Delete { .. } => "Delete",
         Edit::MakeIdsUnique => "Make IDs unique",
         Edit::All(edits) => {
@@ -55,6 +55,7 @@ fn body_verb(change: &BodyChange) -> &'static str {
     match change {
         BodyChange::Id(_) => "Change ID of",
         BodyChange::Name(_) => "Rename",
+        BodyChange::Group(_) => "Group",
         BodyChange::Color(_) => "Colour",
         BodyChange::Hidden(true) => "Hide",
         BodyChange::Hidden(false) => "Show",
@@ -74,6 +75,7 @@ fn force_verb(change: &ForceChange) -> &'static str {
     match change {
         ForceChange::Id(_) => "Change ID of",
         ForceChange::Name(_) => "Rename",
+        ForceChange::Group(_) => "Group",
         ForceChange::Hidden(true) => "Hide",
         ForceChange::Hidden(false) => "Show",
         ForceChange::Locked(true) => "Lock",
@@ -86,6 +88,7 @@ fn collect_subjects(edit: &Edit, subjects: &mut BTreeSet<NodeKey>) {
     match edit {
         Edit::Body { key, .. } | Edit::Force { key, .. } => drop(subjects.insert(*key)),
         Edit::Duplicate { keys, .. } | Edit::Delete { keys } => subjects.extend(keys),
+        Edit::CopyBodies(copies) => subjects.extend(copies.iter().map(|copy| copy.of)),
         Edit::All(edits) => edits.iter().for_each(|edit| collect_subjects(edit, subjects)),
         Edit::MapSize(_)
         | Edit::MapTiles(_)

@@ -2,10 +2,12 @@
 //! Knows no widgets and no OpenGL. [`Session`] holds it all; panels read it and send it [`Action`]s.
 
 mod action;
+mod building;
 mod catalog;
 mod clipboard;
 mod command;
 mod command_info;
+mod copies;
 mod creation;
 mod dialogue;
 mod disk;
@@ -32,6 +34,7 @@ mod session;
 mod settings;
 mod start;
 mod sync;
+mod trouble_list;
 
 pub use action::Action;
 pub use catalog::{COMMANDS, info};
@@ -39,15 +42,16 @@ pub use command::{Command, Key, Menu, Outcome, Shortcut};
 pub use command_info::CommandInfo;
 pub use dialogue::{Answer, Intent, Question, Request};
 pub use drag::Drag;
-pub use expression::{parse_angle, parse_number};
+pub use expression::{Typed, parse_angle, parse_number};
 pub use fields::{BODY_FIELDS, FORCE_FIELDS, Field, SCENE_FIELDS, Shared, allows, limits, shared};
 pub use history::Gesture;
 pub use live::needs_reset;
 pub use notice::{Notice, NoticeLevel};
 pub use palette::{PaletteEntry, palette};
 pub use playback::Playback;
-pub use problems::{Problem, ProblemSource};
+pub use problems::{Fix, Problem, ProblemSource};
 pub use recovered::Recovered;
+pub use safekeeping::INTERVAL as RECOVERY_INTERVAL;
 pub use samples::{SAMPLES, Sample, SampleGroup};
 pub use selection::{Place, Selection};
 pub use session::Session;

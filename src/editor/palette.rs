@@ -2,6 +2,7 @@
 
 use super::catalog::COMMANDS;
 use super::{Command, SAMPLES, SampleGroup, Session};
+use crate::design::TOOLS;
 use crate::scene::shown_path;
 use crate::view::OVERLAYS;
 
@@ -42,7 +43,11 @@ fn entries(session: &Session) -> impl Iterator<Item = PaletteEntry> {
     let overlays = OVERLAYS.iter().enumerate().map(|(index, overlay)| {
         entry(Command::ToggleOverlay(index), format!("Overlay: {}", overlay.label), overlay.help.to_owned())
     });
-    commands.chain(samples).chain(recent).chain(overlays)
+    let tools = TOOLS.iter().enumerate().map(|(index, tool)| PaletteEntry {
+        disabled: session.can_use_tool(index).err(),
+        ..entry(Command::Tool(index), format!("{}: {}", tool.group.label(), tool.label), tool.help.to_owned())
+    });
+    commands.chain(tools).chain(samples).chain(recent).chain(overlays)
 }
 
 fn entry(command: Command, label: String, help: String) -> PaletteEntry {

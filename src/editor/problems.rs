@@ -1,13 +1,17 @@
-//! The list of problems: those of the document, then those of the simulation's start.
+//! The list of problems: those of the document, those of the scene as one designs it, then those of the simulation's
+//! start. Each says what to select and, where it is clear, how to put it right.
 
 use super::{Command, Session};
+use crate::design::{Mend, Trouble};
 use crate::record::RunState;
 use crate::scene::{Diagnostic, NodeKey, Severity};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ProblemSource {
     Document,
-    /// Found when the scene was compiled: overlaps, shapes that cannot be simulated yet.
+    /// Found in the scene, as it is edited.
+    Scene,
+    /// Found when the scene was compiled: shapes that cannot be simulated yet.
     Simulation,
     /// A numerical fault while running, or an edit that the running simulation refused.
     Run,
@@ -23,10 +27,35 @@ pub struct Problem {
     /// Line and column in the file.
     pub position: Option<(u32, u32)>,
     pub path: String,
-    /// What to select when it is clicked.
+    /// The object that it is about.
     pub key: Option<NodeKey>,
-    /// The command that puts it right.
-    pub fix: Option<Command>,
+    /// Others that belong to it, such as what that one overlaps.
+    pub others: Vec<NodeKey>,
+    /// What puts it right.
+    pub fix: Option<Fix>,
+}
+
+/// What a button beside a problem does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fix {
+    Mend(Mend),
+    Reset,
+}
+
+impl Fix {
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Mend(mend) => mend.label(),
+            Self::Reset => "Reset",
+        }
+    }
+
+    pub fn help(self) -> &'static str {
+        match self {
+            Self::Mend(mend) => mend.help(),
+            Self::Reset => super::info(Command::Reset).map_or("", |row| row.help),
+        }
+    }
 }
 
 impl Session {
@@ -40,11 +69,14 @@ impl Session {
                 let names_a_repeated_id = problem.key.is_some_and(|key| repeated.contains(&key))
                     && problem.severity == Severity::Warning
                     && problem.message.contains("UserID");
-                problem.fix = names_a_repeated_id.then_some(Command::MakeIdsUnique);
+                problem.fix = names_a_repeated_id.then_some(Fix::Mend(Mend::MakeIdsUnique));
                 problem
             })
             .collect();
-        for diagnostic in self.frame().problems.iter() {
+        let of = (self.opened_count(), self.document_state());
+        let troubles = self.troubles.of(of, self.scene());
+        problems.extend(troubles.iter().map(|trouble| self.placed(of_trouble(trouble))));
+        for diagnostic in self.frame().problems.iter().filter(|diagnostic| !is_geometry(diagnostic)) {
             // the compiler repeats errors that the document has reported already, with a place
             let known = problems.iter().any(|p| p.key == diagnostic.key && p.message == diagnostic.message);
             if !known {
@@ -78,7 +110,8 @@ impl Session {
             position: None,
             path: String::new(),
             key: None,
-            fix: Some(Command::Reset),
+            others: Vec::new(),
+            fix: Some(Fix::Reset),
         })
     }
 
@@ -104,6 +137,29 @@ fn problem(source: ProblemSource, diagnostic: &Diagnostic) -> Problem {
         position: diagnostic.position,
         path: diagnostic.path.clone(),
         key: diagnostic.key,
+        others: Vec::new(),
         fix: None,
     }
+}
+
+fn of_trouble(trouble: &Trouble) -> Problem {
+    Problem {
+        severity: Severity::Warning,
+        source: ProblemSource::Scene,
+        message: trouble.message.clone(),
+        hint: trouble.hint.clone(),
+        position: None,
+        path: String::new(),
+        key: trouble.keys.first().copied(),
+        others: trouble.keys.get(1..).unwrap_or_default().to_vec(),
+        fix: trouble.mend.map(Fix::Mend),
+    }
+}
+
+/// Warnings of the compiler about what [`crate::design::troubles`] finds as well, without waiting for it.
+fn is_geometry(diagnostic: &Diagnostic) -> bool {
+    let message = &diagnostic.message;
+    let known =
+        [" overlap by ", " more overlaps at the start", " starts outside the map", " start outside the map"];
+    !diagnostic.is_error() && known.iter().any(|known| message.contains(known))
 }

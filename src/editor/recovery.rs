@@ -16,7 +16,7 @@ pub(super) struct Recovery {
     /// The document state that the copy holds.
     pub(super) copied: Option<u64>,
     pub(super) last: Option<Instant>,
-    /// Reported once, not every ten seconds.
+    /// Reported once, not every three seconds.
     pub(super) failed: bool,
 }
 

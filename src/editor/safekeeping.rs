@@ -8,10 +8,10 @@ use super::recovered::{self, Recovered};
 use super::{Notice, Session};
 
 /// Least time between two copies: what a crash may cost.
-const INTERVAL: Duration = Duration::from_secs(10);
+pub const INTERVAL: Duration = Duration::from_secs(3);
 
 impl Session {
-    /// Keeps a copy of unsaved work, at most every ten seconds, and none of saved work.
+    /// Keeps a copy of unsaved work, at most every three seconds, and none of saved work.
     pub(super) fn keep_recovery(&mut self, now: Instant) {
         if !self.is_dirty() {
             return self.recovery.clear();

@@ -4,11 +4,13 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
+use super::copies::LastCopies;
 use super::dialogue::{Intent, Question, Request};
 use super::disk::DiskStamp;
 use super::history::History;
 use super::live::differs;
 use super::recovery::Recovery;
+use super::trouble_list::TroubleList;
 use super::{EditorSettings, Gesture, Notice, Playback, Selection, Storage};
 use crate::record::{EventRow, Frame, Runner};
 use crate::scene::{Document, NodeKey, Scene};
@@ -40,6 +42,12 @@ pub struct Session {
     /// The document state that was seen last while unsynced, and since when.
     pub(super) settling: Option<(u64, Instant)>,
     pub(super) last_poll: Option<Instant>,
+    /// The copies made last.
+    pub(super) last_copies: Option<LastCopies>,
+    /// Whether the text that the clipboard is asked for goes where it came from.
+    pub(super) paste_in_place: bool,
+    /// What is wrong with the scene, by the document it was found in.
+    pub(super) troubles: TroubleList,
 }
 
 /// Where the document came from and goes to.

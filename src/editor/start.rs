@@ -3,6 +3,7 @@
 use super::history::History;
 use super::recovery::Recovery;
 use super::session::OpenFile;
+use super::trouble_list::TroubleList;
 use super::{EditorSettings, Playback, Selection, Session, Storage};
 use crate::record::Runner;
 use crate::scene::{Document, NumberStyle};
@@ -43,6 +44,9 @@ impl Session {
             unsynced: false,
             settling: None,
             last_poll: None,
+            last_copies: None,
+            paste_in_place: false,
+            troubles: TroubleList::default(),
         };
         session.offer_recovery();
         session.sync();

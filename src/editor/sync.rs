@@ -175,6 +175,15 @@ impl Session {
         }
     }
 
+    /// A method belongs to the scene it was chosen for: the next one starts with the exact one.
+    pub(super) fn forget_method(&mut self) {
+        let method = Method::Exact;
+        if method != self.playback.method() {
+            self.playback.set_method(method);
+            self.runner.send(RunCommand::Method(method));
+        }
+    }
+
     /// Sends a command that moves the time forwards, after all edits made so far.
     pub(super) fn go_on(&mut self, command: RunCommand) {
         self.settle();

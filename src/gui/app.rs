@@ -19,6 +19,7 @@ use super::transport::Transport;
 use super::tree::Tree;
 use super::viewport::{self, Canvas, Views};
 use super::{menu, shortcuts, start, status, strip, theme};
+use crate::design::TOOLS;
 use crate::editor::{Action, Command, Notice, Outcome, Request, Session, Storage};
 use crate::record::Runner;
 use crate::scene::shown_path;
@@ -187,6 +188,7 @@ impl App {
             // the card is for the program's start; who asks for a new scene wants that
             self.start_closed = true;
             self.views.opened();
+            self.tree.opened();
         }
     }
 
@@ -247,7 +249,9 @@ impl App {
             },
         );
         let area = egui::CentralPanel::no_frame().show(ui, |ui| {
-            self.views.show(ui, &context);
+            // a part is seen in its place before it is made
+            let preview = AppContext { shown: self.dialogs.preview().or(context.shown), ..context };
+            self.views.show(ui, &preview);
             ui.min_rect()
         });
         if !self.start_closed && start::is_wanted(&self.session) && context.session.question().is_none() {
@@ -325,6 +329,7 @@ impl App {
             }
             Command::ShowAccuracy => self.layout.tab = Tab::Accuracy,
             Command::Find => self.tree.find(),
+            Command::Tool(index) => return self.use_tool(index),
             Command::Rename => {
                 if let Some(key) = self.session.selection().primary() {
                     self.outbox.send(Message::Rename(key));
@@ -337,6 +342,16 @@ impl App {
                 debug_assert!(known, "nobody knows {command:?}");
             }
         }
+        Outcome::Done
+    }
+
+    /// At once, or after a dialog has asked for its sizes.
+    fn use_tool(&mut self, index: usize) -> Outcome {
+        let asks = TOOLS.get(index).is_some_and(|tool| !tool.inputs.is_empty());
+        if !asks || self.session.can_use_tool(index).is_err() {
+            return self.session.perform(Action::UseTool(index));
+        }
+        self.dialogs.ask_for_tool(index, self.views.eye());
         Outcome::Done
     }
 
@@ -366,7 +381,7 @@ impl App {
         if self.session.open_gesture().is_some() {
             ctx.request_repaint_after(Duration::from_millis(160));
         } else if self.session.wants_recovery_copy() {
-            ctx.request_repaint_after(Duration::from_secs(10));
+            ctx.request_repaint_after(crate::editor::RECOVERY_INTERVAL);
         }
     }
 }

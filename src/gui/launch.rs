@@ -12,7 +12,8 @@ use egui::{Context, ViewportCommand};
 use super::app::{App, Parts, TIGHT, Tab};
 use super::dialogs::NativeFileDialogs;
 use super::error::GuiError;
-use crate::editor::{Action, COMMANDS, Command, Outcome, Storage};
+use crate::design::TOOLS;
+use crate::editor::{Action, COMMANDS, Command, Outcome, Storage, parse_number};
 use crate::record::{RunState, ThreadRunner, Unanswered};
 use crate::render::{png, write_png};
 use crate::scene::{check_writable, same_file, shown_path};
@@ -27,7 +28,7 @@ pub struct Options {
     pub window_size: Option<[u32; 2]>,
     /// Write a picture of the window, then close it; `-` is standard output.
     pub screenshot: Option<PathBuf>,
-    /// Commands to carry out first: ids of [`COMMANDS`], `id*count`, `select:name`, `overlay:id`,
+    /// Commands to carry out first: ids of [`COMMANDS`] and [`TOOLS`], `id*count`, `select:name`, `build:rack;Rows=3`, `overlay:id`,
     /// `tab:problems`, `dt:1/60`, `method:thesis`, separated by commas.
     pub steps: Option<String>,
     /// Turn the first view for this many frames and report.
@@ -162,6 +163,8 @@ enum Step {
     Method(Method),
     Tab(Tab),
     Event(usize),
+    /// A tool with its default values but these.
+    Build(usize, Vec<(String, f64)>),
     /// Runs a study and waits for it.
     Study,
 }
@@ -238,6 +241,7 @@ fn step(text: &str) -> Option<Step> {
         return match kind {
             "select" => Some(Step::Select(value.to_owned())),
             "dt" => Some(Step::Dt(value.to_owned())),
+            "build" => build(value),
             "method" => Some(Step::Method(Method::from_name(value)?)),
             "event" => Some(Step::Event(value.parse().ok()?)),
             "tab" if value == "problems" => Some(Step::Tab(Tab::Problems)),
@@ -253,7 +257,22 @@ fn step(text: &str) -> Option<Step> {
     if text == "study" {
         return Some(Step::Study);
     }
-    COMMANDS.iter().find(|row| row.id == text).map(|row| Step::Command(row.command))
+    let tool = || TOOLS.iter().position(|tool| tool.id == text).map(Command::Tool);
+    let row = COMMANDS.iter().find(|row| row.id == text).map(|row| row.command);
+    row.or_else(tool).map(Step::Command)
+}
+
+/// `rack;Rows=3;Ball radius=0.2`
+fn build(text: &str) -> Option<Step> {
+    let mut parts = text.split(';');
+    let id = parts.next()?.trim();
+    let index = TOOLS.iter().position(|tool| tool.id == id)?;
+    let values = parts.map(|part| {
+        let (label, value) = part.split_once('=')?;
+        let known = TOOLS.get(index)?.inputs.iter().any(|input| input.label == label.trim());
+        known.then(|| Some((label.trim().to_owned(), parse_number(value)?))).flatten()
+    });
+    Some(Step::Build(index, values.collect::<Option<Vec<_>>>()?))
 }
 
 impl App {
@@ -357,6 +376,7 @@ impl App {
                 let key = key.ok_or("no body or force has this name or ID")?;
                 self.perform(Action::AddToSelection(vec![key]))
             }
+            Step::Build(index, others) => self.build(*index, others)?,
             Step::Event(index) => {
                 let events = &self.session().frame().events;
                 let missing = || format!("there are {} events in this Δt, counted from 0", events.len());
@@ -372,6 +392,19 @@ impl App {
             Outcome::Refused(reason) => Err(reason),
             _ => Ok(()),
         }
+    }
+
+    /// Uses a tool as its dialog would.
+    fn build(&mut self, index: usize, others: &[(String, f64)]) -> Result<Outcome, String> {
+        let tool = TOOLS.get(index).ok_or("there is no such tool")?;
+        let given = self.session().given(self.views.eye()).ok_or("there is no scene")?;
+        let mut values = tool.defaults(&given);
+        for (input, value) in tool.inputs.iter().zip(&mut values) {
+            let typed = others.iter().find(|(label, _)| label == input.label);
+            *value = typed.map_or(*value, |(_, typed)| *typed);
+        }
+        let plan = tool.plan(&given, &values)?;
+        Ok(self.perform(Action::Apply(plan)))
     }
 
     /// Turns the first view; `true` when all is measured.
@@ -451,6 +484,9 @@ mod tests {
         assert_eq!(step("next_event"), Some(Step::Command(Command::NextEvent)));
         assert_eq!(step("select:5853"), Some(Step::Select("5853".into())));
         assert_eq!(step("tab:problems"), Some(Step::Tab(Tab::Problems)));
+        assert!(matches!(step("build:rack;Rows=3"), Some(Step::Build(_, values)) if values[0].1 == 3.0));
+        assert_eq!(step("build:rack;Wings=2"), None);
+        assert_eq!(step("build:castle"), None);
         assert_eq!(step("fly"), None);
         assert_eq!(step("overlay:nothing"), None);
         assert_eq!(counted_step("next_event*3"), Ok((Step::Command(Command::NextEvent), 3)));

@@ -3,6 +3,7 @@
 use egui::{Button, Ui};
 
 use super::context::AppContext;
+use crate::design::{TOOLS, ToolGroup};
 use crate::editor::{COMMANDS, Command, CommandInfo, Menu, SAMPLES, SampleGroup};
 use crate::scene::shown_path;
 use crate::view::OVERLAYS;
@@ -17,6 +18,10 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>, overlays: crate::view::Overla
                 match menu {
                     Menu::File => files(ui, context),
                     Menu::View => overlay_menu(ui, context, overlays),
+                    Menu::Add => tools(ui, context, &[ToolGroup::Part]),
+                    Menu::Edit => {
+                        tools(ui, context, &[ToolGroup::Arrange, ToolGroup::Select, ToolGroup::Mend]);
+                    }
                     _ => {}
                 }
             });
@@ -58,6 +63,26 @@ fn marked_entry(ui: &mut Ui, context: &AppContext<'_>, row: &CommandInfo, mark: 
     if response.clicked() {
         context.outbox.command(row.command);
         ui.close();
+    }
+}
+
+/// Submenus of the table of tools.
+fn tools(ui: &mut Ui, context: &AppContext<'_>, groups: &[ToolGroup]) {
+    ui.separator();
+    for group in groups {
+        ui.menu_button(group.label(), |ui| {
+            ui.set_min_width(200.0);
+            for (index, tool) in TOOLS.iter().enumerate().filter(|(_, tool)| tool.group == *group) {
+                let can = context.session.can_use_tool(index);
+                let response = ui.add_enabled(can.is_ok(), Button::new(tool.label)).on_hover_text(tool.help);
+                let reason = || format!("{}\nNot now: {}.", tool.help, can.err().unwrap_or_default());
+                let response = if can.is_ok() { response } else { response.on_disabled_hover_text(reason()) };
+                if response.clicked() {
+                    context.outbox.command(Command::Tool(index));
+                    ui.close();
+                }
+            }
+        });
     }
 }
 

@@ -19,9 +19,9 @@ pub fn significant(value: f64, digits: usize) -> String {
     trimmed(&format!("{value:.decimals$}")).to_owned()
 }
 
-/// A residual or another small number: `0`, `3e-16`.
+/// A residual or another small number: `0`, `3e-16`; one that is not small as it is, `0.163`.
 pub fn tiny(value: f64) -> String {
-    if value == 0.0 { "0".to_owned() } else { format!("{value:.0e}") }
+    if value.abs() >= 1e-3 || value == 0.0 { significant(value, 3) } else { format!("{value:.0e}") }
 }
 
 /// Wall-clock seconds in the unit that keeps them short.

@@ -7,7 +7,7 @@ use super::colors::tones;
 use super::context::{AppContext, Message};
 use super::theme::ROW_HEIGHT;
 use super::widgets::{cell, mono, severity_icon};
-use crate::editor::{self, Action, Problem, ProblemSource};
+use crate::editor::{Action, Command, Fix, Problem, ProblemSource};
 use crate::scene::Severity;
 
 /// Keeps the list, which is made again only when document or frame changed.
@@ -43,6 +43,7 @@ impl Problems {
             ui.label(text);
             return;
         }
+        let fixes = self.list.iter().filter(|problem| matches!(problem.fix, Some(Fix::Mend(_)))).count();
         let table = TableBuilder::new(ui)
             .id_salt("problems")
             .striped(true)
@@ -54,9 +55,17 @@ impl Problems {
             .column(Column::remainder().clip(true));
         table
             .header(ROW_HEIGHT, |mut header| {
-                for title in ["", "Place", "Object", "Problem", "What to do"] {
+                for title in ["", "Place", "Object", "Problem"] {
                     cell(&mut header, RichText::new(title).small().weak(), "");
                 }
+                header.col(|ui| {
+                    ui.horizontal(|ui| {
+                        ui.label(RichText::new("What to do").small().weak());
+                        if fixes > 1 {
+                            fix_all_button(ui, context);
+                        }
+                    });
+                });
             })
             .body(|body| {
                 body.rows(ROW_HEIGHT, self.list.len(), |mut row| {
@@ -69,8 +78,10 @@ impl Problems {
                     object(&mut row, context, problem);
                     cell(&mut row, RichText::new(&problem.message), &problem.message);
                     row.col(|ui| {
-                        fix_button(ui, context, problem);
-                        ui.label(RichText::new(&problem.hint).weak()).on_hover_text(&problem.hint);
+                        ui.horizontal(|ui| {
+                            fix_button(ui, context, problem);
+                            ui.label(RichText::new(&problem.hint).weak()).on_hover_text(&problem.hint);
+                        });
                     });
                     click(&row.response(), context, problem);
                 });
@@ -82,6 +93,7 @@ fn place(problem: &Problem) -> String {
     match (problem.position, problem.source) {
         (Some((line, column)), _) => format!("{line}:{column}"),
         (None, ProblemSource::Run) => "run".to_owned(),
+        (None, ProblemSource::Scene) => "scene".to_owned(),
         (None, ProblemSource::Simulation) => "start".to_owned(),
         (None, ProblemSource::Document) => "file".to_owned(),
     }
@@ -99,9 +111,20 @@ fn object(row: &mut egui_extras::TableRow<'_, '_>, context: &AppContext<'_>, pro
 }
 
 fn fix_button(ui: &mut Ui, context: &AppContext<'_>, problem: &Problem) {
-    let Some(info) = problem.fix.and_then(editor::info) else { return };
-    if ui.small_button(info.label).on_hover_text(info.help).clicked() {
-        context.outbox.command(info.command);
+    let Some(fix) = problem.fix else { return };
+    if ui.small_button(fix.label()).on_hover_text(fix.help()).clicked() {
+        match fix {
+            Fix::Mend(mend) => context.outbox.act(Action::Mend(mend)),
+            Fix::Reset => context.outbox.command(Command::Reset),
+        }
+    }
+}
+
+fn fix_all_button(ui: &mut Ui, context: &AppContext<'_>) {
+    let help =
+        "Makes IDs unique, pushes bodies apart, grows the map and fits the tiles, as far as each is needed";
+    if ui.small_button("Put all right").on_hover_text(help).clicked() {
+        context.outbox.act(Action::MendAll);
     }
 }
 
@@ -110,10 +133,11 @@ fn click(response: &egui::Response, context: &AppContext<'_>, problem: &Problem)
     else {
         return;
     };
-    if response.clicked() {
-        context.outbox.act(Action::Select(vec![key]));
-    }
+    let keys: Vec<_> = [key].into_iter().chain(problem.others.iter().copied()).collect();
     if response.double_clicked() {
-        context.outbox.send(Message::Frame(vec![key]));
+        context.outbox.send(Message::Frame(keys.clone()));
+    }
+    if response.clicked() {
+        context.outbox.act(Action::Select(keys));
     }
 }

@@ -12,14 +12,17 @@ use crate::editor::{Action, COMMANDS, Command, Key, Shortcut};
 pub fn collect(ctx: &egui::Context, outbox: &Outbox, view_focused: bool, was_typing: bool) {
     let typing = ctx.text_edit_focused();
     let on_button = !view_focused && ctx.memory(|memory| memory.focused().is_some());
-    let mut pasted = None;
+    let (mut pasted, mut in_place) = (None, false);
     let commands: Vec<Command> = ctx.input(|input| {
         let mut found = Vec::new();
         for event in &input.events {
             match event {
                 Event::Copy if !typing => found.push(Command::Copy),
                 Event::Cut if !typing => found.push(Command::Cut),
-                Event::Paste(text) if !typing => pasted = Some(text.clone()),
+                Event::Paste(text) if !typing => {
+                    pasted = Some(text.clone());
+                    in_place = input.modifiers.shift;
+                }
                 Event::Key { key: egui::Key::Space, .. } if on_button => {}
                 Event::Key { key: egui::Key::Escape, .. } if was_typing => {}
                 Event::Key { key, pressed: true, modifiers, repeat, .. } => {
@@ -33,7 +36,7 @@ pub fn collect(ctx: &egui::Context, outbox: &Outbox, view_focused: bool, was_typ
     });
     commands.into_iter().for_each(|command| outbox.command(command));
     if let Some(text) = pasted {
-        outbox.act(Action::Paste(text));
+        outbox.act(if in_place { Action::PasteInPlace(text) } else { Action::Paste(text) });
     }
 }
 

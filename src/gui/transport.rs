@@ -4,7 +4,7 @@ use egui::{RichText, TextEdit, Ui};
 
 use super::colors::tones;
 use super::context::AppContext;
-use super::inspector::number::{Number, number};
+use super::inspector::number::{Number, number, single};
 use super::viewport::Layout;
 use super::widgets::{command_button, icon_button, severity_icon};
 use super::{icons, lag, numbers};
@@ -181,7 +181,7 @@ fn time_speed(ui: &mut Ui, context: &AppContext<'_>) {
         angle: false,
         whole: false,
     };
-    number(ui, context.outbox, &spec, Edit::TimeSpeed);
+    number(ui, context.outbox, &spec, |typed| Ok(Edit::TimeSpeed(single(typed, scene.time_speed)?)));
 }
 
 /// What the simulation is doing, when that is not simply waiting; and what waits for a reset.

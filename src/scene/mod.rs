@@ -8,6 +8,7 @@ mod edit;
 mod encoding;
 mod ids;
 mod locate;
+mod names;
 mod number;
 mod params;
 mod parse;
@@ -23,7 +24,8 @@ use diagnostic::shown;
 
 pub use diagnostic::{Diagnostic, Severity, escaped, shown_path};
 pub use document::Document;
-pub use edit::{BodyChange, Edit, EditError, Edited, ForceChange};
+pub use edit::{BodyChange, BodyCopy, Edit, EditError, Edited, ForceChange};
+pub use names::Names;
 pub use number::NumberStyle;
 pub use params::{PARAMS, ParamInfo, SimParams};
 pub use save::{

@@ -39,6 +39,8 @@ pub struct Force {
     /// Unique among forces: `id`, or `id#k` for the k-th (k ≥ 2) force of that id in file order.
     pub label: String,
     pub name: Option<String>,
+    /// The group it is listed in, such as `table` or `table/legs`; cosmetic.
+    pub group: Option<String>,
     pub hidden: bool,
     pub locked: bool,
     pub kind: ForceKind,
@@ -62,6 +64,8 @@ pub struct Body {
     /// Unique among bodies: `id`, or `id#k` for the k-th (k ≥ 2) body of that id in file order.
     pub label: String,
     pub name: Option<String>,
+    /// The group it is listed in, such as `table` or `table/legs`; cosmetic.
+    pub group: Option<String>,
     /// sRGB; `None` lets the viewer choose.
     pub color: Option<[u8; 3]>,
     pub hidden: bool,
@@ -87,6 +91,7 @@ impl Body {
             id,
             label: id.to_string(),
             name: None,
+            group: None,
             color: None,
             hidden: false,
             locked: false,

@@ -285,7 +285,7 @@ fn a_document_with_errors_is_not_run_and_can_be_put_right() {
     bench.sent();
     bench.act(Action::OpenPath(path));
     assert_eq!(bench.sent(), ["Unload"]);
-    assert!(bench.notices().contains("errors"));
+    assert!(bench.notices().contains("has 1 error"));
     assert!(matches!(bench.run(Command::StepForward), Outcome::Refused(_)));
     bench.act(Action::Select(vec![bench.key(7)]));
     assert_eq!(bench.run(Command::Delete), Outcome::Done);

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use polyscene::editor::{
-    Action, BODY_FIELDS, Command, Drag, FORCE_FIELDS, Gesture, Outcome, Place, ProblemSource, Request,
-    SAMPLES, SCENE_FIELDS, Shared, parse_angle, parse_number, shared,
+    Action, BODY_FIELDS, Command, Drag, FORCE_FIELDS, Fix, Gesture, Outcome, Place, ProblemSource, Request,
+    SAMPLES, SCENE_FIELDS, Shared, Typed, parse_angle, parse_number, shared,
 };
 use polyscene::scene::{BodyChange, Diagnostic, Document, Edit, ForceChange, Severity, Shape};
 
@@ -97,13 +97,17 @@ fn one_edit_changes_a_number_of_several_bodies_and_skips_those_without_it() {
     let mut bench = Bench::open();
     bench.run(Command::SelectAll);
     let mass = BODY_FIELDS.iter().find(|field| field.label == "Mass").unwrap();
-    let edit = mass.edit(bench.session.scene().unwrap(), bench.session.selection().keys(), 0, 6.0);
+    let edit = mass
+        .edit(bench.session.scene().unwrap(), bench.session.selection().keys(), 0, &Typed::Value(6.0))
+        .unwrap();
     assert_eq!(bench.edit(edit), Outcome::Done);
     assert_eq!((bench.body(7).mass(), bench.body(8).mass()), (Some(6.0), Some(6.0)));
     assert_eq!(bench.session.undo_label(), Some("Change mass of 2 objects"));
     // one component changes, the others stay apart
     let position = BODY_FIELDS.iter().find(|field| field.label == "Position").unwrap();
-    let edit = position.edit(bench.session.scene().unwrap(), &[bench.key(7), bench.key(8)], 1, 9.0);
+    let edit = position
+        .edit(bench.session.scene().unwrap(), &[bench.key(7), bench.key(8)], 1, &Typed::Value(9.0))
+        .unwrap();
     bench.edit(edit);
     assert_eq!(bench.body(7).position, DVec3::new(3.0, 9.0, 3.0));
     assert_eq!(bench.body(8).position, DVec3::new(7.0, 9.0, 3.0));
@@ -232,8 +236,8 @@ fn a_repeated_id_is_a_problem_with_its_fix() {
     let problems = bench.session.problems();
     let [problem] = &problems[..] else { panic!("{problems:?}") };
     assert_eq!(problem.severity, Severity::Warning);
-    assert_eq!(problem.fix, Some(Command::MakeIdsUnique));
-    bench.run(problem.fix.unwrap());
+    let Some(Fix::Mend(mend)) = problem.fix else { panic!("{problem:?}") };
+    bench.act(Action::Mend(mend));
     assert!(bench.session.problems().is_empty());
     assert!(matches!(bench.run(Command::MakeIdsUnique), Outcome::Refused(_)));
 }

@@ -155,15 +155,15 @@ fn points_are_named_after_what_they_did() {
 #[test]
 fn the_number_of_points_is_bounded() {
     let mut bench = Bench::open();
-    for step in 1..=400 {
+    for step in 1..=5000 {
         bench.change(7, BodyChange::Mass(1.0 + f64::from(step)));
     }
     let mut undone = 0;
     while bench.run(Command::Undo) == Outcome::Done {
         undone += 1;
     }
-    assert_eq!(undone, 256);
-    assert_eq!(bench.body(7).mass(), Some(401.0 - 256.0));
+    assert_eq!(undone, 4096);
+    assert_eq!(bench.body(7).mass(), Some(5001.0 - 4096.0));
 }
 
 #[test]

@@ -4,21 +4,23 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Each layer and what it may import, besides itself. ARCHITECTURE.md says what each holds.
-const LAYERS: [(&str, &[&str]); 10] = [
+const LAYERS: [(&str, &[&str]); 11] = [
     ("random", &[]),
     ("scene", &[]),
+    ("design", &["random", "scene"]),
     ("sim", &["random", "scene"]),
     ("record", &["scene", "sim"]),
     ("study", &["random", "scene", "sim", "record"]),
     ("view", &["scene", "sim", "record", "study"]),
     ("render", &["scene", "sim", "record", "study", "view"]),
-    ("editor", &["scene", "sim", "record", "study", "view"]),
-    ("gui", &["scene", "sim", "record", "study", "view", "render", "editor"]),
-    ("cli", &["scene", "sim", "record", "study", "view", "render"]),
+    ("editor", &["scene", "design", "sim", "record", "study", "view"]),
+    ("gui", &["scene", "design", "sim", "record", "study", "view", "render", "editor"]),
+    ("cli", &["scene", "design", "sim", "record", "study", "view", "render"]),
 ];
 
 /// What a layer must not name, because it knows nothing of it.
-const STRANGERS: [(&str, &[&str]); 8] = [
+const STRANGERS: [(&str, &[&str]); 9] = [
+    ("design", &["std::time", "std::fs", "egui", "glow", "three_d", "clap"]),
     ("scene", &["std::time", "egui", "glow", "three_d", "clap"]),
     ("sim", &["std::time", "std::fs", "egui", "glow", "three_d", "clap"]),
     ("record", &["egui", "glow", "three_d", "clap"]),

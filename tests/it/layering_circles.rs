@@ -11,7 +11,7 @@ use super::layering::{read, root, rust_files, without_comments};
 type Exception = (&'static str, &'static str, &'static str);
 
 /// Layers whose files are held to it.
-const LAYERS: [&str; 3] = ["sim", "record", "editor"];
+const LAYERS: [&str; 4] = ["design", "sim", "record", "editor"];
 
 const EXCEPTIONS: [Exception; 0] = [];
 

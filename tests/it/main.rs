@@ -13,6 +13,12 @@
 mod cli;
 // Shared helpers: scenes, driving, the reference.
 mod common;
+// Troubles of a scene as one designs it, and what puts them right.
+mod design_mend;
+// The table of tools: parts, arrays, order, selections, groups.
+mod design_tools;
+// Copies, tools, groups and mends in a session.
+mod editor_building;
 // The command table: unique names and keys, reasons for what is disabled.
 mod editor_commands;
 // Opening, saving, samples and the guards against losing or overwriting work.
@@ -21,6 +27,8 @@ mod editor_files;
 mod editor_live;
 // Selection, inspector fields, problems, new objects, clipboard, typed numbers.
 mod editor_model;
+// Random commands, edits and tools: undo, redo, save and reload.
+mod editor_random;
 // Unsaved work outlives a crash.
 mod editor_recovery;
 // A session with a runner that writes down what it is told.
@@ -35,6 +43,8 @@ mod everyday_verb;
 mod gui_accuracy;
 // The error badge: what it says, and that a click goes to the event it names.
 mod gui_badge;
+// Building in the window: parts, formulas, groups, problems; a whole scene in few actions.
+mod gui_building;
 // Editing in the window: by typing, by dragging, by commands, with undo.
 mod gui_edit;
 // Files in the window: start card, open, save, unsaved changes, the window's own dialog.

@@ -224,6 +224,7 @@ fn new_ball(id: i64) -> Body {
         label: String::new(),
         name: Some("New".into()),
         color: None,
+        group: None,
         hidden: false,
         locked: false,
         position: DVec3::new(1.0, 2.5, 3.0),
@@ -299,6 +300,7 @@ fn empty_and_missing_sections_are_opened() {
         id: 1,
         label: String::new(),
         name: None,
+        group: None,
         hidden: false,
         locked: false,
         kind: ForceKind::Drag { density: 1.276 },
@@ -361,10 +363,10 @@ fn a_duplicate_keeps_comments_and_unknown_parts_and_has_an_id_of_its_own() {
     let edited = document.apply(&edit).unwrap();
     let ball = odd.replace("5853", "32286").replace("X=\"5\" Y=\"3\"", "X=\"5,5\" Y=\"3\"");
     let wall = WALL.replace("32285", "32287").replace("X=\"10\"", "X=\"10,5\"");
-    assert_eq!(text(&edited.document), scene_with(FORCES, &format!("{odd}{ball}{WALL}{wall}")));
+    assert_eq!(text(&edited.document), scene_with(FORCES, &format!("{odd}{WALL}{ball}{wall}")));
     let bodies = &scene(&edited.document).bodies;
-    assert_eq!(edited.added, [bodies[1].key, bodies[3].key]);
-    assert_eq!([bodies[0].key, bodies[2].key], keys[..]);
+    assert_eq!([bodies[0].key, bodies[1].key], keys[..]);
+    assert_eq!(edited.added, [bodies[2].key, bodies[3].key]);
     assert_eq!(text(&apply(&edited.document, &Edit::Delete { keys: edited.added })), text(&document));
 }
 

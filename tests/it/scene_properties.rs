@@ -191,6 +191,7 @@ impl Step {
                 label: String::new(),
                 name,
                 color: Some([1, 2, 3]),
+                group: None,
                 hidden: false,
                 locked: true,
                 position: vector,

@@ -72,7 +72,16 @@ pub fn furnished_box() -> Scene {
 
 pub fn force(key: u64, kind: ForceKind) -> Force {
     let id = key as i64;
-    Force { key: NodeKey(key), id, label: id.to_string(), name: None, hidden: false, locked: false, kind }
+    Force {
+        key: NodeKey(key),
+        id,
+        label: id.to_string(),
+        name: None,
+        group: None,
+        hidden: false,
+        locked: false,
+        kind,
+    }
 }
 
 pub fn pressed(keys: [u64; 2], ends: [DVec3; 2], force: f64) -> ContactFrame {

@@ -48,7 +48,7 @@ const WINDOW: [(&str, &str); 8] = [
     ),
 ];
 
-const GESTURES: [(&str, &str); 11] = [
+const GESTURES: [(&str, &str); 12] = [
     ("Click", "Select; again at the same place: what lies behind"),
     ("Ctrl or Shift + click", "Add to the selection or take out"),
     ("Drag", "Select by a rectangle"),
@@ -59,7 +59,8 @@ const GESTURES: [(&str, &str); 11] = [
     ("Right click", "Menu"),
     ("Double click a body", "Bring it into the middle"),
     ("Double click a view's title", "Fill the middle with it"),
-    ("Arrows, Page Up and Down", "Turn or move, and magnify the view that has the keyboard"),
+    ("Arrows", "Move the selection by a round step; with nothing selected, or Alt, turn or move the view"),
+    ("Page Up and Down", "Magnify the view that has the keyboard"),
 ];
 
 /// Whether it was closed.

@@ -5,17 +5,20 @@ mod help;
 mod palette;
 mod path;
 mod question;
+mod tool;
 
 use egui::Context;
 
 use super::accuracy::Export;
-use super::context::AppContext;
+use super::context::{AppContext, Shown};
+use crate::design::Eye;
 use crate::editor::{Action, Command, Request};
 
 pub use files::{FileAnswer, FileDialogs, FileRequest, NativeFileDialogs, NoFileDialogs};
 use help::HelpPage;
 use palette::Palette;
 use path::PathDialog;
+use tool::ToolDialog;
 
 /// All dialogs; at most one of them is open beside a question.
 pub struct Dialogs {
@@ -25,16 +28,21 @@ pub struct Dialogs {
     path: Option<PathDialog>,
     palette: Option<Palette>,
     help: Option<HelpPage>,
+    tool: Option<ToolDialog>,
 }
 
 impl Dialogs {
     pub fn new(files: Box<dyn FileDialogs>) -> Self {
-        Self { files, asked: None, path: None, palette: None, help: None }
+        Self { files, asked: None, path: None, palette: None, help: None, tool: None }
     }
 
     /// Whether a dialog has the keyboard, so that shortcuts wait.
     pub fn are_open(&self) -> bool {
-        self.asked.is_some() || self.path.is_some() || self.palette.is_some() || self.help.is_some()
+        self.asked.is_some()
+            || self.path.is_some()
+            || self.palette.is_some()
+            || self.help.is_some()
+            || self.tool.is_some()
     }
 
     /// Carries out a command that opens a dialog; `false` if it is none.
@@ -47,6 +55,16 @@ impl Dialogs {
             _ => return false,
         }
         true
+    }
+
+    /// Asks for what a tool of [`crate::design::TOOLS`] needs to know.
+    pub fn ask_for_tool(&mut self, index: usize, eye: Eye) {
+        self.tool = ToolDialog::new(index, eye);
+    }
+
+    /// What the views show while a tool asks: the scene as it would be.
+    pub fn preview(&self) -> Option<&Shown> {
+        self.tool.as_ref().and_then(ToolDialog::preview)
     }
 
     /// Opens a file dialog that the session asks for.
@@ -81,6 +99,11 @@ impl Dialogs {
             && palette.show(ctx, context)
         {
             self.palette = None;
+        }
+        if let Some(tool) = &mut self.tool
+            && tool.show(ctx, context)
+        {
+            self.tool = None;
         }
         if let Some(page) = self.help
             && help::show(ctx, page)

@@ -1,6 +1,6 @@
 //! Bodies: what they start with, and what they do now.
 
-use egui::{Grid, RichText, Ui};
+use egui::{Color32, Grid, RichText, Sense, Stroke, StrokeKind, Ui, vec2};
 
 use super::number::{Number, WIDTH, number};
 use super::section;
@@ -106,6 +106,44 @@ fn color(ui: &mut Ui, context: &AppContext<'_>, shown: &Shown, bodies: &[&Body])
             ui.label(RichText::new("chosen by the views").small().color(tones(ui).weak));
         }
     });
+    ui.end_row();
+    ui.label("");
+    swatches(ui, context, bodies);
+}
+
+/// Colours that a click gives.
+fn swatches(ui: &mut Ui, context: &AppContext<'_>, bodies: &[&Body]) {
+    const SWATCHES: [(&str, [u8; 3]); 8] = [
+        ("red", [0xd6, 0x3c, 0x32]),
+        ("orange", [0xe8, 0x8a, 0x1e]),
+        ("yellow", [0xe8, 0xcb, 0x34]),
+        ("green", [0x3f, 0xa3, 0x52]),
+        ("blue", [0x2f, 0x74, 0xd0]),
+        ("violet", [0x8a, 0x55, 0xc4]),
+        ("white", [0xf2, 0xf2, 0xf2]),
+        ("black", [0x28, 0x2a, 0x2e]),
+    ];
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 3.0;
+        for (name, rgb) in SWATCHES {
+            let (rect, response) = ui.allocate_exact_size(vec2(18.0, 18.0), Sense::click());
+            let [r, g, b] = rgb;
+            let framed = response.hovered() || response.has_focus();
+            let line = if framed { tones(ui).strong } else { tones(ui).line };
+            ui.painter().rect(
+                rect.shrink(1.0),
+                3.0,
+                Color32::from_rgb(r, g, b),
+                Stroke::new(1.0, line),
+                StrokeKind::Inside,
+            );
+            crate::gui::widgets::name_button(ui, &response, &format!("Colour {name}"), false);
+            if response.on_hover_text(name).clicked() {
+                let edit = for_all(bodies, |_| BodyChange::Color(Some(rgb)));
+                context.outbox.act(Action::Edit { edit, gesture: None });
+            }
+        }
+    });
 }
 
 fn for_all(bodies: &[&Body], change: impl Fn(&Body) -> BodyChange) -> Edit {
@@ -134,7 +172,7 @@ fn rows(
         let help = help(field.label);
         let (range, width) = (field.range, WIDTH);
         let spec = Number { name: &name, value, range, speed, width, help, angle, whole: false };
-        number(ui, context.outbox, &spec, |value| field.edit(&shown.scene, keys, axis, value));
+        number(ui, context.outbox, &spec, |typed| field.edit(&shown.scene, keys, axis, typed));
         match field.now.zip(now) {
             Some((get, frame)) => {
                 let value = get(frame).to_array().get(axis).copied().unwrap_or(0.0);

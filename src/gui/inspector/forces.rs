@@ -37,7 +37,7 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>, shown: &Shown, keys: &[NodeKe
                     angle: false,
                     whole: false,
                 };
-                number(ui, context.outbox, &spec, |value| field.edit(&shown.scene, keys, axis, value));
+                number(ui, context.outbox, &spec, |typed| field.edit(&shown.scene, keys, axis, typed));
                 ui.label(RichText::new(field.unit).color(tones(ui).weak));
                 ui.end_row();
             }

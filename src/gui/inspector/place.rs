@@ -3,7 +3,7 @@
 use egui::{Grid, RichText, Ui};
 
 use super::bodies::{row_label, speed};
-use super::number::{Number, WIDTH, number};
+use super::number::{Number, WIDTH, number, single};
 use super::section;
 use crate::editor::{Action, Field, SCENE_FIELDS, shared};
 use crate::gui::colors::tones;
@@ -72,8 +72,9 @@ fn fields(
                     angle: false,
                     whole,
                 };
-                number(ui, context.outbox, &spec, |value| {
-                    field.change(scene, axis, value).unwrap_or(Edit::All(Vec::new()))
+                number(ui, context.outbox, &spec, |typed| {
+                    let value = single(typed, field.value(scene, axis).unwrap_or_default())?;
+                    Ok(field.change(scene, axis, value).unwrap_or(Edit::All(Vec::new())))
                 });
                 ui.label(RichText::new(field.unit).color(tones(ui).weak));
                 ui.end_row();
@@ -137,7 +138,7 @@ fn param_row(ui: &mut Ui, context: &AppContext<'_>, scene: &Scene, param: &Param
         angle: false,
         whole: is_whole(param),
     };
-    number(ui, context.outbox, &spec, |value| with(param, scene, value));
+    number(ui, context.outbox, &spec, |typed| Ok(with(param, scene, single(typed, value)?)));
     ui.label(RichText::new(param.unit).color(tones(ui).weak));
     if value != default {
         let name = format!("Reset {}", param.label);

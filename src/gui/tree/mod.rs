@@ -1,6 +1,9 @@
 //! The scene tree: map, simulation, forces and bodies in groups, with filter, marks and renaming.
 
+mod named;
 mod rows;
+
+use std::collections::BTreeSet;
 
 use egui::{RichText, ScrollArea, TextEdit, Ui};
 use rustc_hash::FxHashMap;
@@ -9,6 +12,7 @@ use super::colors::tones;
 use super::context::{AppContext, Message, Shown};
 use super::theme::ROW_HEIGHT;
 use super::widgets::panel_heading;
+use crate::design::{self, Eye};
 use crate::editor::{Action, Command};
 use crate::record::Frame;
 use crate::scene::{BodyChange, Edit, ForceChange, NodeKey};
@@ -21,6 +25,10 @@ pub struct Tree {
     filter: String,
     wants_filter: bool,
     closed: Vec<Group>,
+    /// Named groups that are open; others are closed.
+    open_named: BTreeSet<String>,
+    /// The selection whose groups were opened last.
+    revealed: Option<NodeKey>,
     renaming: Option<Renaming>,
     /// Where a range of rows begins, for Shift and click.
     anchor: Option<NodeKey>,
@@ -33,7 +41,7 @@ pub struct Tree {
 /// The rows, made again only when something they depend on has changed.
 #[derive(Default)]
 struct Known {
-    of: Option<(u64, String, Vec<Group>)>,
+    of: Option<(u64, String, Vec<Group>, BTreeSet<String>)>,
     rows: Vec<Row>,
 }
 
@@ -58,13 +66,29 @@ impl Contacts {
     }
 }
 
+/// What gets another name.
+#[derive(Clone, Debug, PartialEq)]
+enum Renamed {
+    Item(NodeKey),
+    /// A group, by its path.
+    Group(String),
+}
+
 struct Renaming {
-    key: NodeKey,
+    what: Renamed,
     text: String,
     started: bool,
 }
 
 impl Tree {
+    /// Another scene: a filter made for the last one would hide it.
+    pub fn opened(&mut self) {
+        self.filter.clear();
+        self.renaming = None;
+        self.anchor = None;
+        self.open_named.clear();
+    }
+
     pub fn find(&mut self) {
         self.wants_filter = true;
     }
@@ -74,17 +98,26 @@ impl Tree {
         let body = shown.body(key).map(|body| body.name.clone());
         let name = body.or_else(|| shown.force(key).map(|force| force.name.clone()));
         if let Some(name) = name {
-            self.renaming = Some(Renaming { key, text: name.unwrap_or_default(), started: false });
+            self.start_renaming(Renamed::Item(key), name.unwrap_or_default());
         }
+    }
+
+    fn start_renaming(&mut self, what: Renamed, text: String) {
+        self.renaming = Some(Renaming { what, text, started: false });
+    }
+
+    fn is_renaming(&self, what: &Renamed) -> bool {
+        self.renaming.as_ref().is_some_and(|renaming| renaming.what == *what)
     }
 
     pub fn show(&mut self, ui: &mut Ui, context: &AppContext<'_>) {
         panel_heading(ui, "Scene", |_| {});
-        self.filter_field(ui);
+        self.filter_field(ui, context);
         let Some(shown) = context.shown else {
             ui.label(RichText::new("  The file has errors; see Problems.").color(tones(ui).weak));
             return;
         };
+        self.reveal(context, shown);
         self.refresh(shown);
         self.contacts.refresh(context.session.frame());
         let rows = std::mem::take(&mut self.known.rows);
@@ -115,7 +148,7 @@ impl Tree {
         self.known.rows = rows;
     }
 
-    fn filter_field(&mut self, ui: &mut Ui) {
+    fn filter_field(&mut self, ui: &mut Ui, context: &AppContext<'_>) {
         egui::Frame::new().inner_margin(egui::Margin::symmetric(6, 4)).show(ui, |ui| {
             ui.horizontal(|ui| {
                 let width = ui.available_width() - if self.filter.is_empty() { 0.0 } else { 26.0 };
@@ -123,7 +156,11 @@ impl Tree {
                     .hint_text("Filter by name, ID or kind")
                     .desired_width(width);
                 let response = ui.add(edit).accessible_name("Filter");
-                let response = response.on_hover_text("Shows rows that hold all these words (Ctrl+F)");
+                let help = "Shows rows that hold all these words (Ctrl+F); Enter selects all that are found";
+                let response = response.on_hover_text(help);
+                if response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter)) {
+                    self.select_found(context);
+                }
                 if std::mem::take(&mut self.wants_filter) {
                     response.request_focus();
                 }
@@ -135,10 +172,19 @@ impl Tree {
         });
     }
 
+    /// Selects all that the filter lets through.
+    fn select_found(&mut self, context: &AppContext<'_>) {
+        let (Some(shown), false) = (context.shown, self.filter.trim().is_empty()) else { return };
+        self.refresh(shown);
+        let keys: Vec<NodeKey> = self.known.rows.iter().filter_map(Row::key).collect();
+        self.scrolled_to = keys.last().copied();
+        context.outbox.act(Action::Select(keys));
+    }
+
     fn refresh(&mut self, shown: &Shown) {
-        let of = (shown.revision, self.filter.clone(), self.closed.clone());
+        let of = (shown.revision, self.filter.clone(), self.closed.clone(), self.open_named.clone());
         if self.known.of.as_ref() != Some(&of) {
-            self.known.rows = collect(&shown.scene, &self.filter, &self.closed);
+            self.known.rows = collect(&shown.scene, &self.filter, &self.closed, &self.open_named);
             self.known.of = Some(of);
         }
     }
@@ -204,12 +250,29 @@ impl Tree {
         if response.lost_focus() {
             let cancelled = ui.input(|input| input.key_pressed(egui::Key::Escape));
             let text = renaming.text.trim();
-            let name = (!text.is_empty()).then(|| text.to_owned());
-            let edit = rename_edit(shown, renaming.key, name).filter(|_| !cancelled);
-            if let Some(edit) = edit {
-                context.outbox.act(Action::Edit { edit, gesture: None });
+            let action = rename_action(context, shown, &renaming.what, text).filter(|_| !cancelled);
+            if let (Some(action), Renamed::Group(_)) = (&action, &renaming.what) {
+                // It stays open under its new name.
+                self.open_named.insert(text.to_owned());
+                context.outbox.act(action.clone());
+            } else if let Some(action) = action {
+                context.outbox.act(action);
             }
             self.renaming = None;
+        }
+    }
+}
+
+fn rename_action(context: &AppContext<'_>, shown: &Shown, what: &Renamed, text: &str) -> Option<Action> {
+    match what {
+        Renamed::Item(key) => {
+            let edit = rename_edit(shown, *key, (!text.is_empty()).then(|| text.to_owned()))?;
+            Some(Action::Edit { edit, gesture: None })
+        }
+        Renamed::Group(path) if text.is_empty() || text == path => None,
+        Renamed::Group(path) => {
+            let given = context.session.given(Eye::default())?;
+            Some(Action::Apply(design::rename_group(&given, path, text.trim_matches('/'))))
         }
     }
 }

@@ -1,8 +1,11 @@
 //! The rows of the tree: which there are, and what each looks like.
 
+use std::collections::BTreeSet;
+
 use egui::{Align2, FontId, Rect, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
-use super::{Tree, look_at};
+use super::named::{self, Named};
+use super::{Renamed, Tree, look_at};
 use crate::editor::{self, Action, Command, Place};
 use crate::gui::colors::{color32, tones};
 use crate::gui::context::{AppContext, Message, Shown, force_name};
@@ -10,6 +13,9 @@ use crate::gui::theme::ROW_HEIGHT;
 use crate::gui::{icons, menu, numbers, widgets};
 use crate::scene::{Body, BodyChange, Edit, Force, ForceChange, ForceKind, NodeKey, Scene, Shape};
 use crate::sim::ContactState;
+
+/// Points that a group shifts what is in it.
+pub(super) const INDENT: f32 = 12.0;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Group {
@@ -30,40 +36,78 @@ impl Group {
 
 pub enum Row {
     Place(Place),
-    Group { group: Group, count: usize, shown: usize, open: bool },
-    Body { index: usize, key: NodeKey },
-    Force { index: usize, key: NodeKey },
+    Group {
+        group: Group,
+        count: usize,
+        shown: usize,
+        open: bool,
+    },
+    Named(Named),
+    /// How deep in groups it stands.
+    Body {
+        index: usize,
+        key: NodeKey,
+        depth: usize,
+    },
+    Force {
+        index: usize,
+        key: NodeKey,
+        depth: usize,
+    },
 }
 
 impl Row {
     pub fn key(&self) -> Option<NodeKey> {
         match self {
             Self::Body { key, .. } | Self::Force { key, .. } => Some(*key),
-            Self::Place(_) | Self::Group { .. } => None,
+            Self::Place(_) | Self::Group { .. } | Self::Named(_) => None,
+        }
+    }
+
+    /// The row of a body or force at another depth.
+    pub fn at_depth(&self, depth: usize) -> Self {
+        match *self {
+            Self::Force { index, key, .. } => Self::Force { index, key, depth },
+            Self::Body { index, key, .. } => Self::Body { index, key, depth },
+            Self::Place(place) => Self::Place(place),
+            Self::Group { group, count, shown, open } => Self::Group { group, count, shown, open },
+            Self::Named(ref named) => Self::Named(named.clone()),
         }
     }
 }
 
-/// All rows that the filter lets through.
-pub fn collect(scene: &Scene, filter: &str, closed: &[Group]) -> Vec<Row> {
+/// All rows that the filter lets through: what has a group stands there, all else by its kind.
+pub fn collect(scene: &Scene, filter: &str, closed: &[Group], open_named: &BTreeSet<String>) -> Vec<Row> {
     let words: Vec<String> = filter.split_whitespace().map(str::to_lowercase).collect();
     let mut rows = Vec::new();
     if words.is_empty() {
         rows.extend([Row::Place(Place::Map), Row::Place(Place::Simulation)]);
     }
-    let forces = scene.forces.iter().enumerate();
-    let found: Vec<Row> = forces
-        .filter(|(_, force)| matches(&words, &[force_name(force), &force.label, force_kind(force)]))
-        .map(|(index, force)| Row::Force { index, key: force.key })
-        .collect();
-    add_group(&mut rows, Group::Forces, scene.forces.len(), found, &words, closed);
+    let is_found = |group: &Option<String>, texts: &[&str]| {
+        matches(&words, &[texts, &[group.as_deref().unwrap_or_default()]].concat())
+    };
+    let force_found =
+        |force: &Force| is_found(&force.group, &[force_name(force), &force.label, force_kind(force)]);
+    let body_found =
+        |body: &Body| is_found(&body.group, &[body.display_name(), &body.label, body_kind(body)]);
+    let in_groups: BTreeSet<NodeKey> = {
+        let forces = scene.forces.iter().filter(|force| force.group.is_some() && force_found(force));
+        let bodies = scene.bodies.iter().filter(|body| body.group.is_some() && body_found(body));
+        forces.map(|force| force.key).chain(bodies.map(|body| body.key)).collect()
+    };
+    let found = named::collect(scene, &|key| in_groups.contains(&key), !words.is_empty(), open_named);
+    rows.extend(found);
+    let single_forces = || scene.forces.iter().enumerate().filter(|(_, force)| force.group.is_none());
+    let found = single_forces().filter(|(_, force)| force_found(force));
+    let found = found.map(|(index, force)| Row::Force { index, key: force.key, depth: 0 }).collect();
+    add_group(&mut rows, Group::Forces, single_forces().count(), found, &words, closed);
     for (group, dynamic) in [(Group::Dynamic, true), (Group::Static, false)] {
-        let of_group =
-            || scene.bodies.iter().enumerate().filter(move |(_, body)| body.is_dynamic() == dynamic);
-        let found = of_group()
-            .filter(|(_, body)| matches(&words, &[body.display_name(), &body.label, body_kind(body)]))
-            .map(|(index, body)| Row::Body { index, key: body.key })
-            .collect();
+        let of_group = || {
+            let bodies = scene.bodies.iter().enumerate();
+            bodies.filter(move |(_, body)| body.is_dynamic() == dynamic && body.group.is_none())
+        };
+        let found = of_group().filter(|(_, body)| body_found(body));
+        let found = found.map(|(index, body)| Row::Body { index, key: body.key, depth: 0 }).collect();
         add_group(&mut rows, group, of_group().count(), found, &words, closed);
     }
     rows
@@ -124,16 +168,18 @@ impl Tree {
                     }
                 }
             }
-            Row::Body { index, key } => {
+            Row::Named(named) => self.named_row(ui, context, shown, named),
+            Row::Body { index, key, depth } => {
                 if let Some(body) = shown.scene.bodies.get(*index) {
                     let detail = body_detail(body);
                     let marks = Marks { hidden: body.hidden, locked: body.locked };
                     let chip = Chip::of(body);
-                    let looks = Looks { name: body.display_name(), detail: &detail, chip, marks };
+                    let looks =
+                        Looks { name: body.display_name(), detail: &detail, chip, marks, depth: *depth };
                     self.item_row(ui, context, shown, rows, *key, &looks);
                 }
             }
-            Row::Force { index, key } => {
+            Row::Force { index, key, depth } => {
                 if let Some(force) = shown.scene.forces.get(*index) {
                     let marks = Marks { hidden: force.hidden, locked: force.locked };
                     let looks = Looks {
@@ -141,6 +187,7 @@ impl Tree {
                         detail: force_kind(force),
                         chip: Chip::Diamond,
                         marks,
+                        depth: *depth,
                     };
                     self.item_row(ui, context, shown, rows, *key, &looks);
                 }
@@ -159,18 +206,19 @@ impl Tree {
     ) {
         let selected = context.session.selection().contains(key);
         let (rect, response) = row_space(ui, selected, looks.name);
+        let indent = INDENT * looks.depth as f32;
         let faded = if looks.marks.hidden { 0.5 } else { 1.0 };
         if let Some(color) = shown.color(key, context.palette()) {
             looks.chip.paint(
                 ui,
-                pos2(rect.left() + 28.0, rect.center().y),
+                pos2(rect.left() + indent + 28.0, rect.center().y),
                 color32(color).gamma_multiply(faded),
             );
         }
         let contact = self.contacts.of(key);
-        paint_contact(ui, context, pos2(rect.left() + 12.0, rect.center().y), contact);
-        let name_rect = Rect::from_min_max(pos2(rect.left() + 40.0, rect.top()), rect.max);
-        if self.renaming.as_ref().is_some_and(|renaming| renaming.key == key) {
+        paint_contact(ui, context, pos2(rect.left() + indent + 12.0, rect.center().y), contact);
+        let name_rect = Rect::from_min_max(pos2(rect.left() + indent + 40.0, rect.top()), rect.max);
+        if self.is_renaming(&Renamed::Item(key)) {
             let builder = egui::UiBuilder::new().max_rect(name_rect);
             ui.scope_builder(builder, |ui| {
                 ui.horizontal_centered(|ui| self.rename_field(ui, context, shown));
@@ -191,7 +239,7 @@ impl Tree {
             self.click(ui, context, rows, key);
         }
         if response.double_clicked() {
-            if response.interact_pointer_pos().is_some_and(|at| at.x > rect.left() + 38.0) {
+            if response.interact_pointer_pos().is_some_and(|at| at.x > rect.left() + indent + 38.0) {
                 context.outbox.send(Message::Rename(key));
             } else {
                 look_at(context, key);
@@ -211,6 +259,7 @@ struct Looks<'a> {
     detail: &'a str,
     chip: Chip,
     marks: Marks,
+    depth: usize,
 }
 
 /// What stands before a name: a shape that shows the kind, in the colour of the views.
@@ -281,7 +330,7 @@ fn body_detail(body: &Body) -> String {
     }
 }
 
-fn row_space(ui: &mut Ui, selected: bool, name: &str) -> (Rect, egui::Response) {
+pub(super) fn row_space(ui: &mut Ui, selected: bool, name: &str) -> (Rect, egui::Response) {
     let size = vec2(ui.available_width(), ROW_HEIGHT);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     let visuals = ui.visuals();
@@ -370,7 +419,7 @@ fn place_row(ui: &mut Ui, context: &AppContext<'_>, place: Place) {
     let selected = context.session.selection().place() == Some(place);
     let (rect, response) = row_space(ui, selected, name);
     let marks = Marks { hidden: false, locked: false };
-    let looks = Looks { name, detail: &detail, chip: Chip::None, marks };
+    let looks = Looks { name, detail: &detail, chip: Chip::None, marks, depth: 0 };
     draw_name(ui, rect.with_min_x(rect.left() + 8.0).with_max_x(rect.right() + 44.0), &looks, selected, 1.0);
     if response.clicked() {
         context.outbox.act(Action::SelectPlace(place));
@@ -399,8 +448,8 @@ fn group_row(ui: &mut Ui, group: Group, count: usize, shown: usize, open: bool) 
     response.clicked()
 }
 
-fn context_menu(ui: &mut Ui, context: &AppContext<'_>) {
-    const COMMANDS: [Command; 9] = [
+pub(super) fn context_menu(ui: &mut Ui, context: &AppContext<'_>) {
+    const COMMANDS: [Command; 11] = [
         Command::FrameSelection,
         Command::Rename,
         Command::Cut,
@@ -408,6 +457,8 @@ fn context_menu(ui: &mut Ui, context: &AppContext<'_>) {
         Command::Paste,
         Command::Duplicate,
         Command::Delete,
+        Command::Group,
+        Command::Ungroup,
         Command::Hide,
         Command::Lock,
     ];

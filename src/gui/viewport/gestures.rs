@@ -10,7 +10,7 @@ use crate::gui::colors::color32;
 use crate::gui::context::Message;
 use crate::gui::numbers;
 use crate::scene::NodeKey;
-use crate::view::{Hit, Projection, ViewInput, drag_in_plane, pick, pick_rect, snap, snap_step};
+use crate::view::{Hit, Projection, ViewInput, Viewport, drag_in_plane, pick, pick_rect, snap, snap_step};
 
 /// Radians that the scene turns per point of dragging.
 const TURN_PER_POINT: f64 = 0.008;
@@ -74,7 +74,8 @@ impl Pane {
         scenery: &Scenery<'_>,
     ) -> Option<Hover> {
         self.move_camera(ui, response, rect);
-        self.keys(ui, response);
+        let viewport = scenery.input(self, rect, ui.pixels_per_point()).viewport;
+        self.keys(ui, response, scenery, viewport);
         let input = scenery.input(self, rect, ui.pixels_per_point());
         let hover = self.hover(response, rect, scenery, &input);
         if response.clicked() {
@@ -121,14 +122,15 @@ impl Pane {
             let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
             let factor = libm::exp(f64::from(scroll) * ZOOM_PER_POINT) * f64::from(pinch);
             if factor != 1.0 {
-                let viewport = crate::view::Viewport::new(rect.width().into(), rect.height().into(), 1.0);
+                let viewport = Viewport::new(rect.width().into(), rect.height().into(), 1.0);
                 self.camera.zoom_to_cursor(ndc(&viewport, rect, at), viewport.aspect(), factor);
             }
         }
     }
 
-    /// Arrows turn or move the view that has the keyboard, Page Up and Page Down magnify.
-    fn keys(&mut self, ui: &Ui, response: &Response) {
+    /// Arrows move the selection by a round step, or without one, or with Alt, turn or move the view that has the
+    /// keyboard. Page Up and Page Down magnify.
+    fn keys(&mut self, ui: &Ui, response: &Response, scenery: &Scenery<'_>, viewport: Viewport) {
         if !response.has_focus() {
             return;
         }
@@ -148,14 +150,34 @@ impl Pane {
                 axis(Key::PageUp, Key::PageDown),
             )
         });
+        let of_view = ui.input(|input| input.modifiers.alt) || scenery.context.session.selection().is_empty();
         let fixed = self.camera.projection == Projection::Orthographic && self.camera.axis_view().is_some();
-        if fixed {
+        if !of_view {
+            self.nudge(scenery, snap_step(&self.camera, viewport), across, up);
+        } else if fixed {
             self.camera.pan(DVec2::new(-across, up) * 30.0, f64::from(response.rect.height()));
         } else {
             self.camera.orbit(-across * 0.08, up * 0.08);
         }
         if nearer != 0.0 {
             self.camera.zoom_to_cursor(DVec2::ZERO, 1.0, libm::exp(0.2 * nearer));
+        }
+    }
+
+    /// Moves the selection along the axes that lie most across and most up the view.
+    fn nudge(&self, scenery: &Scenery<'_>, step: f64, across: f64, up: f64) {
+        if across == 0.0 && up == 0.0 {
+            return;
+        }
+        let along = |direction: DVec3| {
+            let largest = direction.abs().max_element();
+            let axis = DVec3::AXES.into_iter().find(|axis| direction.dot(*axis).abs() == largest);
+            axis.map_or(DVec3::ZERO, |axis| axis * direction.dot(axis).signum())
+        };
+        let right = along(self.camera.right());
+        let offset = (right * across + along(self.camera.up()) * up) * step;
+        if let Some(edit) = scenery.context.session.nudge(offset) {
+            scenery.context.outbox.act(Action::Edit { edit, gesture: None });
         }
     }
 

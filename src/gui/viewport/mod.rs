@@ -12,6 +12,7 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use super::context::{AppContext, Message, Shown};
+use crate::design::Eye;
 use crate::editor::Command;
 use crate::record::{EventRow, Frame};
 use crate::scene::{Motion, NodeKey};
@@ -124,6 +125,12 @@ impl Views {
 
     pub fn layout(&self) -> Layout {
         self.layout
+    }
+
+    /// How the active view looks at the scene.
+    pub fn eye(&self) -> Eye {
+        let camera = &self.panes[self.active].camera;
+        Eye { focus: camera.target, right: camera.right(), towards: camera.backward() }
     }
 
     pub fn active_overlays(&self) -> OverlaySet {

@@ -22,6 +22,11 @@ pub(super) fn change(pen: Pen<'_>, el: &Arc<Element>, lead: &str, change: &BodyC
             name.map_or(Ok(()), check_text)?;
             cosmetic::set(pen, el, lead, "name", name)
         }
+        BodyChange::Group(group) => {
+            let group = group.as_deref().filter(|group| !group.is_empty());
+            group.map_or(Ok(()), check_text)?;
+            cosmetic::set(pen, el, lead, "group", group)
+        }
         BodyChange::Color(color) => {
             cosmetic::set(pen, el, lead, "color", color.map(cosmetic::color).as_deref())
         }

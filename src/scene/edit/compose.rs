@@ -16,7 +16,8 @@ pub(super) fn body(pen: Pen<'_>, lead: &str, id: i64, body: &Body) -> String {
     let inner = pen.style.inner_lead(lead);
     let mut parts = Vec::new();
     let color = body.color.map(cosmetic::color);
-    parts.extend(cosmetics(pen, body.name.as_deref(), color.as_deref(), body.hidden, body.locked));
+    let names = [body.name.as_deref(), body.group.as_deref(), color.as_deref()];
+    parts.extend(cosmetics(pen, names, body.hidden, body.locked));
     parts.push(pen.leaf("Translation", &vector(body.position)));
     parts.push(pen.leaf("Rotation", &vector(body.rotation)));
     parts.push(pen.leaf("Bounce", &[("F32", body.bounce)]));
@@ -37,7 +38,12 @@ pub(super) fn body(pen: Pen<'_>, lead: &str, id: i64, body: &Body) -> String {
 pub(super) fn force(pen: Pen<'_>, lead: &str, id: i64, force: &Force) -> String {
     let inner = pen.style.inner_lead(lead);
     let mut parts = Vec::new();
-    parts.extend(cosmetics(pen, force.name.as_deref(), None, force.hidden, force.locked));
+    parts.extend(cosmetics(
+        pen,
+        [force.name.as_deref(), force.group.as_deref(), None],
+        force.hidden,
+        force.locked,
+    ));
     match force.kind {
         ForceKind::GravityPoint { position, intensity } => {
             parts.push(pen.leaf("Translation", &vector(position)));
@@ -79,16 +85,11 @@ pub(super) fn element(pen: Pen<'_>, xml: &str) -> Changed {
     element.ok_or_else(|| EditError::Invalid("nothing was written".into()))
 }
 
-fn cosmetics(
-    pen: Pen<'_>,
-    name: Option<&str>,
-    color: Option<&str>,
-    hidden: bool,
-    locked: bool,
-) -> Option<String> {
-    let name = name.filter(|name| !name.is_empty());
+fn cosmetics(pen: Pen<'_>, names: [Option<&str>; 3], hidden: bool, locked: bool) -> Option<String> {
+    let texts =
+        ["name", "group", "color"].into_iter().zip(names.map(|text| text.filter(|text| !text.is_empty())));
     let flags = [("hidden", cosmetic::flag(hidden)), ("locked", cosmetic::flag(locked))];
-    let all = [("name", name), ("color", color)].into_iter().chain(flags);
+    let all = texts.chain(flags);
     let text = all.filter_map(|(name, value)| Some(pen.attribute(name, value?))).collect::<String>();
     (!text.is_empty()).then(|| format!("<?polyscene{text}?>"))
 }

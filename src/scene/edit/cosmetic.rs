@@ -41,6 +41,15 @@ pub(super) fn set(pen: Pen<'_>, el: &Arc<Element>, lead: &str, name: &str, value
     Ok(Arc::new(el.with_children(children)))
 }
 
+/// One attribute of the instruction.
+pub(super) fn get(pen: Pen<'_>, el: &Element, name: &str) -> Option<String> {
+    let source = &pen.source.text;
+    let instruction =
+        el.children.iter().filter_map(|child| raw(child, source)).find(|raw| is_cosmetic(raw))?;
+    let value = quick_xml::escape::unescape(tag::find(instruction, name)?.raw).ok()?;
+    Some(value.into_owned())
+}
+
 /// The value of a flag: absent means no.
 pub(super) fn flag(on: bool) -> Option<&'static str> {
     on.then_some("1")

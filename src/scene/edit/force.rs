@@ -21,6 +21,11 @@ pub(super) fn change(pen: Pen<'_>, el: &Arc<Element>, lead: &str, change: &Force
             name.map_or(Ok(()), check_text)?;
             cosmetic::set(pen, el, lead, "name", name)
         }
+        ForceChange::Group(group) => {
+            let group = group.as_deref().filter(|group| !group.is_empty());
+            group.map_or(Ok(()), check_text)?;
+            cosmetic::set(pen, el, lead, "group", group)
+        }
         ForceChange::Hidden(on) => cosmetic::set(pen, el, lead, "hidden", cosmetic::flag(*on)),
         ForceChange::Locked(on) => cosmetic::set(pen, el, lead, "locked", cosmetic::flag(*on)),
         ForceChange::Kind(kind) => {

@@ -35,12 +35,15 @@ pub enum Edit {
     /// Adds a copy of `body` after the last body; its key and label are chosen, its id too if taken.
     AddBody(Box<Body>),
     AddForce(Box<Force>),
-    /// Copies bodies and forces as they stand in the file, comments and unknown parts included, each
-    /// after its original, with a fresh UserID, moved by `offset` metres.
+    /// Copies bodies and forces as they stand in the file, comments and unknown parts included, to the end of
+    /// their list, with a fresh UserID and the next name (`wall 2`), moved by `offset` metres. At the end, so
+    /// that no other body changes its place, by which views choose colours.
     Duplicate {
         keys: Vec<NodeKey>,
         offset: DVec3,
     },
+    /// Copies bodies likewise, each with changes of its own.
+    CopyBodies(Vec<BodyCopy>),
     Delete {
         keys: Vec<NodeKey>,
     },
@@ -50,10 +53,19 @@ pub enum Edit {
     All(Vec<Edit>),
 }
 
+/// A body to copy, and what is different about the copy.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodyCopy {
+    pub of: NodeKey,
+    pub changes: Vec<BodyChange>,
+}
+
 #[derive(Clone, Debug, PartialEq)]
 pub enum BodyChange {
     Id(i64),
     Name(Option<String>),
+    /// `None` takes it out of its group.
+    Group(Option<String>),
     Color(Option<[u8; 3]>),
     Hidden(bool),
     Locked(bool),
@@ -72,6 +84,8 @@ pub enum BodyChange {
 pub enum ForceChange {
     Id(i64),
     Name(Option<String>),
+    /// `None` takes it out of its group.
+    Group(Option<String>),
     Hidden(bool),
     Locked(bool),
     /// Same kind as before, other numbers.

@@ -168,6 +168,15 @@ impl<'a> Pen<'a> {
         Element { open: open.into(), close: format!("</{}>", tag::name(tag)).into(), ..changed }
     }
 
+    /// Adds children behind the last one, each on a line of its own as that one is.
+    pub fn with_appended(self, el: &Element, new: Vec<Child>) -> Element {
+        let (at, near) = self.insertion(el, Spot::Last, "");
+        let lead = near.map_or(String::new(), |near| lead_at(&el.children, near, &self.source.text));
+        let space = || (!lead.is_empty()).then(|| Child::Raw(lead.as_str().into()));
+        let added = new.into_iter().flat_map(|child| space().into_iter().chain([child])).collect();
+        el.with_children(el.children.splice(at..at, added))
+    }
+
     /// The index for a new child, and the sibling whose indentation it copies.
     fn insertion(self, el: &Element, spot: Spot<'_>, name: &str) -> (usize, Option<usize>) {
         let children = &el.children;
@@ -196,11 +205,6 @@ impl<'a> Pen<'a> {
                 }
             }
         }
-    }
-
-    /// The index behind a child and the comments on its line.
-    pub fn line_end(self, el: &Element, at: usize) -> usize {
-        end_of_line(&el.children, at + 1, &self.source.text)
     }
 
     /// The element without a child, the white space before it and the comments behind it on its line.

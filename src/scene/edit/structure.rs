@@ -7,10 +7,10 @@ use rustc_hash::FxHashSet;
 
 use super::body::check_shape;
 use super::force::check_kind;
-use super::pen::{Pen, Spot, check, check_text, check_vector, unit};
+use super::pen::{Changed, Pen, Spot, check, check_text, check_vector, unit};
 use super::style::lead_at;
 use super::work::Work;
-use super::{EditError, compose};
+use super::{BodyCopy, EditError, body, compose, cosmetic};
 use crate::scene::locate::List;
 use crate::scene::rules::Range;
 use crate::scene::tree::{Child, Element};
@@ -30,6 +30,7 @@ impl Work<'_> {
     pub fn add_force(&mut self, force: &Force) -> Result<(), EditError> {
         check_kind(&force.kind)?;
         force.name.as_deref().map_or(Ok(()), check_text)?;
+        force.group.as_deref().map_or(Ok(()), check_text)?;
         let id = self.ids(List::Forces).take(force.id);
         self.add(List::Forces, super::force::kind_name(&force.kind), |pen, lead| {
             compose::force(pen, lead, id, force)
@@ -70,26 +71,66 @@ impl Work<'_> {
         check_vector("the offset", offset, Range::Any)?;
         let mut added = Vec::new();
         for (list, places) in self.places(keys)? {
-            let ids = places.iter().map(|_| self.ids(list).fresh()).collect::<Vec<_>>();
-            self.section(list.path(), |pen, el, _| {
-                let mut splices = Vec::with_capacity(places.len());
-                for (&(at, order), id) in places.iter().zip(ids) {
-                    let original = el.children.get(at).and_then(Child::element).ok_or(EditError::Gone)?;
-                    let lead = lead_at(&el.children, at, &pen.source.text);
-                    let copy = pen.with_text(&Arc::new(pen.copy(original)), "UserID", &id.to_string());
-                    let copy = moved(pen, &copy, &lead, offset)?;
-                    added.push((order, copy.key));
-                    let end = pen.line_end(el, at);
-                    let space = (!lead.is_empty()).then(|| Child::Raw(lead.into()));
-                    splices.push((end..end, space.into_iter().chain([Child::Element(copy)]).collect()));
-                }
-                Ok(pen.with_splices(el, splices.into_iter()))
-            })?;
+            let (orders, places): (Vec<_>, Vec<_>) = places.iter().map(|&(at, order)| (order, at)).unzip();
+            let copies =
+                self.append_copies(list, &places, |pen, _, copy, lead| moved(pen, copy, lead, offset))?;
+            added.extend(orders.into_iter().zip(copies));
         }
         added.sort_unstable();
         self.added.extend(added.into_iter().map(|(_, key)| key));
-        self.forget_places();
         Ok(())
+    }
+
+    pub fn copy_bodies(&mut self, copies: &[BodyCopy]) -> Result<(), EditError> {
+        let mut places = Vec::with_capacity(copies.len());
+        for copy in copies {
+            match self.find(copy.of) {
+                Some((List::Bodies, at)) => places.push(at),
+                _ => return Err(EditError::Gone),
+            }
+        }
+        let added = self.append_copies(List::Bodies, &places, |pen, nth, copy, lead| {
+            let changes = copies.get(nth).map_or(&[][..], |copy| &copy.changes);
+            changes.iter().try_fold(copy.clone(), |el, change| body::change(pen, &el, lead, change))
+        })?;
+        self.added.extend(added);
+        Ok(())
+    }
+
+    /// Appends copies of the elements at these places of a list, each with an id and a name of its own and as
+    /// `change` makes it, which also gets its number. Gives their keys.
+    fn append_copies(
+        &mut self,
+        list: List,
+        places: &[usize],
+        change: impl Fn(Pen<'_>, usize, &Arc<Element>, &str) -> Changed,
+    ) -> Result<Vec<NodeKey>, EditError> {
+        let mut added = Vec::with_capacity(places.len());
+        if places.is_empty() {
+            return Ok(added);
+        }
+        let ids = places.iter().map(|_| self.ids(list).fresh()).collect::<Vec<_>>();
+        let mut names = std::mem::take(self.names(list));
+        self.section(list.path(), |pen, el, _| {
+            let mut copies = Vec::with_capacity(places.len());
+            for ((nth, &at), id) in places.iter().enumerate().zip(ids) {
+                let original = el.children.get(at).and_then(Child::element).ok_or(EditError::Gone)?;
+                let lead = lead_at(&el.children, at, &pen.source.text);
+                let copy = pen.with_text(&Arc::new(pen.copy(original)), "UserID", &id.to_string());
+                let name = cosmetic::get(pen, &copy, "name").filter(|name| !name.is_empty());
+                let copy = match name {
+                    Some(name) => cosmetic::set(pen, &copy, &lead, "name", Some(&names.take(&name)))?,
+                    None => copy,
+                };
+                let copy = change(pen, nth, &copy, &lead)?;
+                added.push(copy.key);
+                copies.push(Child::Element(copy));
+            }
+            Ok(Arc::new(pen.with_appended(el, copies)))
+        })?;
+        *self.names(list) = names;
+        self.forget_places();
+        Ok(added)
     }
 
     /// Gives fresh ids to all but the first of each id.
@@ -126,7 +167,7 @@ impl Work<'_> {
 }
 
 /// A body or force shifted; what has no place, or none that can be read, stays.
-fn moved(pen: Pen<'_>, el: &Arc<Element>, lead: &str, offset: DVec3) -> super::pen::Changed {
+fn moved(pen: Pen<'_>, el: &Arc<Element>, lead: &str, offset: DVec3) -> Changed {
     let view = pen.view(el);
     let place = view.child("Translation");
     if offset == DVec3::ZERO || view.name() == "SpaceAverse" {
@@ -153,6 +194,7 @@ fn check_body(body: &Body) -> Result<(), EditError> {
         check_vector("the velocity", velocity, Range::Any)?;
     }
     body.name.as_deref().map_or(Ok(()), check_text)?;
+    body.group.as_deref().map_or(Ok(()), check_text)?;
     body.material.as_deref().map_or(Ok(()), check_text)?;
     check_shape(&body.shape, body.is_dynamic())
 }

@@ -11,7 +11,7 @@ use crate::scene::ids::Ids;
 use crate::scene::locate::{self, Index, List};
 use crate::scene::rules::{self, Range};
 use crate::scene::tree::{Child, Children, Element, View, tag};
-use crate::scene::{Document, NodeKey, number};
+use crate::scene::{Document, Names, NodeKey, number};
 
 /// Children of the root and of `Simulation`, in the order in which they are written.
 const SECTIONS: [&str; 6] = ["Map", "Simulation", "Primitives", "TimeSpeed", "Forces", "Solver"];
@@ -23,6 +23,7 @@ pub(super) struct Work<'d> {
     /// Where bodies and forces stand; gone when an edit added or removed some.
     index: Option<Arc<Index>>,
     ids: [Option<Ids>; 2],
+    names: [Option<Names>; 2],
     pub added: Vec<NodeKey>,
     /// All that the edit did, as long as it only changed bodies.
     changes: Option<Changes>,
@@ -44,7 +45,16 @@ impl<'d> Work<'d> {
         }
         let index = document.index.get().cloned();
         let (top, changes) = (top.clone(), Some(Changes::new()));
-        Ok(Self { document, pen, top, index, ids: [None, None], added: Vec::new(), changes })
+        Ok(Self {
+            document,
+            pen,
+            top,
+            index,
+            ids: [None, None],
+            names: [None, None],
+            added: Vec::new(),
+            changes,
+        })
     }
 
     pub fn apply(&mut self, edit: &Edit) -> Result<(), EditError> {
@@ -76,6 +86,7 @@ impl<'d> Work<'d> {
             Edit::AddBody(body) => self.add_body(body),
             Edit::AddForce(force) => self.add_force(force),
             Edit::Duplicate { keys, offset } => self.duplicate(keys, *offset),
+            Edit::CopyBodies(copies) => self.copy_bodies(copies),
             Edit::Delete { keys } => self.delete(keys),
             Edit::MakeIdsUnique => self.make_ids_unique(),
             Edit::All(edits) => self.apply_all(edits),
@@ -206,6 +217,20 @@ impl<'d> Work<'d> {
         let slot = list as usize;
         let ids = self.ids[slot].take().unwrap_or_else(|| self.all_ids(list));
         self.ids[slot].insert(ids)
+    }
+
+    /// The names in use.
+    pub fn names(&mut self, list: List) -> &mut Names {
+        let scene = self.document.scene();
+        self.names[list as usize].get_or_insert_with(|| match (scene, list) {
+            (Some(scene), List::Bodies) => {
+                Names::new(scene.bodies.iter().filter_map(|body| body.name.as_deref()))
+            }
+            (Some(scene), List::Forces) => {
+                Names::new(scene.forces.iter().filter_map(|force| force.name.as_deref()))
+            }
+            (None, _) => Names::default(),
+        })
     }
 
     fn all_ids(&self, list: List) -> Ids {

@@ -68,6 +68,7 @@ pub(super) fn read<'a>(el: View<'a>, log: &mut Log<'a>, cosmetics: Cosmetics, us
         id: 0,
         label: String::new(),
         name: cosmetics.name,
+        group: cosmetics.group,
         color: cosmetics.color,
         hidden: cosmetics.hidden,
         locked: cosmetics.locked,

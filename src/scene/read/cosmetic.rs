@@ -1,4 +1,4 @@
-//! What does not change the physics: `<?polyscene name="…" color="#rrggbb" hidden="1" locked="1"?>`,
+//! What does not change the physics: `<?polyscene name="…" group="…" color="#rrggbb" hidden="1" locked="1"?>`,
 //! a processing instruction inside a body or force, which other readers skip.
 
 use super::log::Log;
@@ -11,6 +11,7 @@ pub(in crate::scene) const TARGET: &str = "?polyscene";
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Cosmetics {
     pub name: Option<String>,
+    pub group: Option<String>,
     pub color: Option<[u8; 3]>,
     pub hidden: bool,
     pub locked: bool,
@@ -30,6 +31,10 @@ pub(super) fn read<'a>(el: View<'a>, log: &mut Log<'a>) -> Cosmetics {
             (_, Err(_)) => false,
             ("name", Ok(value)) => {
                 cosmetics.name = Some(value.into_owned()).filter(|name| !name.is_empty());
+                true
+            }
+            ("group", Ok(value)) => {
+                cosmetics.group = Some(value.into_owned()).filter(|group| !group.is_empty());
                 true
             }
             ("color", Ok(value)) => {

@@ -38,6 +38,7 @@ pub(super) fn read<'a>(el: View<'a>, log: &mut Log<'a>, cosmetics: Cosmetics) ->
         id: 0,
         label: String::new(),
         name: cosmetics.name,
+        group: cosmetics.group,
         hidden: cosmetics.hidden,
         locked: cosmetics.locked,
         kind,

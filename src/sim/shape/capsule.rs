@@ -67,6 +67,7 @@ mod tests {
             id: 1,
             label: "1".into(),
             name: None,
+            group: None,
             hidden: false,
             locked: false,
             kind: ForceKind::GravityPlane {

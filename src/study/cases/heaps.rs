@@ -396,6 +396,7 @@ fn in_gravity(size: f64, e: f64, places: impl IntoIterator<Item = DVec3>) -> Sce
             name: None,
             hidden: false,
             locked: false,
+            group: None,
             kind: ForceKind::GravityPlane { position: DVec3::ZERO, acceleration },
         }],
         bodies: balls.collect(),

@@ -80,7 +80,16 @@ impl Builder {
         let id = self.forces.len() as i64 + 1;
         let key = NodeKey(1_000_000 + id as u64);
         let label = id.to_string();
-        self.forces.push(Force { key, id, label, name: None, hidden: false, locked: false, kind });
+        self.forces.push(Force {
+            key,
+            id,
+            label,
+            name: None,
+            group: None,
+            hidden: false,
+            locked: false,
+            kind,
+        });
     }
 
     /// A plate that closes the scene; its normal, local +z, points inwards.

@@ -145,3 +145,56 @@ fn each_invalid_scene_has_an_error_with_its_file() {
         assert_eq!(found, !is_warning, "{name}");
     }
 }
+
+#[test]
+fn fix_puts_right_what_can_be_in_place_and_says_so() {
+    let bench = Bench::new();
+    let low = BOUNCE.replace(r#"X="5" Y="5""#, r#"X="5" Y="0,25""#);
+    bench.write("low.xml", low.clone());
+    let outcome = bench.polyscene(&["check", "--fix", "low.xml"]);
+    assert_eq!((outcome.code, outcome.stdout.as_str()), (0, ""), "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("low.xml: pushed overlapping bodies apart"), "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("1 file, 0 errors, 0 warnings"), "{}", outcome.stderr);
+    let fixed = std::fs::read_to_string(bench.path("low.xml")).unwrap();
+    assert_ne!(fixed, low);
+    let again = bench.polyscene(&["check", "--fix", "low.xml"]);
+    assert!(!again.stderr.contains("pushed"), "{}", again.stderr);
+    assert_eq!(std::fs::read_to_string(bench.path("low.xml")).unwrap(), fixed);
+}
+
+#[test]
+fn fix_writes_elsewhere_and_refuses_what_is_unclear() {
+    let bench = Bench::new();
+    let far = BOUNCE.replace(r#"X="5" Y="5""#, r#"X="5" Y="50""#);
+    bench.write("far.xml", far.clone());
+    let outcome = bench.polyscene(&["check", "--fix", "far.xml", "-o", "near.xml"]);
+    assert_eq!(outcome.code, 0, "{}", outcome.stderr);
+    assert_eq!(std::fs::read_to_string(bench.path("far.xml")).unwrap(), far);
+    assert_eq!(bench.polyscene(&["check", "near.xml"]).stdout, "");
+    for wrong in [
+        &["check", "--fix", "-"][..],
+        &["check", "--fix", "far.xml", "far.xml", "-o", "x.xml"],
+        &["check", "--fix", "far.xml", "-o", "-"],
+        &["check", "far.xml", "-o", "x.xml"],
+        &["check", "--fix", "far.xml", "-o", "no/such/folder.xml"],
+    ] {
+        let outcome = bench.polyscene(wrong);
+        assert_eq!(outcome.code, 2, "{wrong:?}: {}", outcome.stderr);
+    }
+    bench.write("broken.xml", "<PolyPhysicsXml");
+    assert_eq!(bench.polyscene(&["check", "--fix", "broken.xml"]).code, 1);
+    assert_eq!(std::fs::read_to_string(bench.path("broken.xml")).unwrap(), "<PolyPhysicsXml");
+}
+
+#[test]
+fn tiles_and_masses_are_checked_too() {
+    let bench = Bench::new();
+    let fine =
+        BOUNCE.replace("<Tiles X=\"10\" Y=\"10\" Z=\"10\" />", "<Tiles X=\"200\" Y=\"400\" Z=\"200\" />");
+    bench.write("fine.xml", fine);
+    let outcome = bench.polyscene(&["check", "fine.xml"]);
+    assert!(outcome.stdout.contains("200 × 400 × 200 tiles are 16 million"), "{}", outcome.stdout);
+    let outcome = bench.polyscene(&["check", "--fix", "fine.xml"]);
+    assert!(outcome.stderr.contains("fitted the tiles"), "{}", outcome.stderr);
+    assert_eq!(outcome.stdout, "");
+}

@@ -106,6 +106,7 @@ pub fn force(id: i64, kind: ForceKind) -> Force {
         id,
         label: id.to_string(),
         name: None,
+        group: None,
         hidden: false,
         locked: false,
         kind,

@@ -1,0 +1,209 @@
+//! Putting a scene right where it is clear how: overlapping bodies move apart along the shortest way, the map grows,
+//! tiles fit, UserIDs become unique.
+
+use glam::DVec3;
+
+use super::extent::Extent;
+use super::gap::{gap, overlap};
+use super::measure::{MOST_ON_AXIS, Mend, fitting_tiles, is_outside, may_move, may_part};
+use super::moving;
+use super::near::for_each_near;
+use super::plan::Plan;
+use super::tool::{Tool, ToolGroup};
+use super::trouble::troubles;
+use crate::scene::{Body, BodyChange, Document, Edit, EditError, ForceChange, NodeKey, Scene};
+
+/// Rounds in which all pairs are pushed apart: chains of balls take about as many as they are long.
+const ROUNDS: usize = 400;
+
+pub(super) const PUSH_APART: Tool = Tool {
+    id: "push_apart",
+    label: "Push overlapping bodies apart",
+    group: ToolGroup::Mend,
+    help: "Moves overlapping bodies along their shortest ways until they touch; static and locked ones stay",
+    inputs: &[],
+    enabled: |given| {
+        if first_overlap(given.scene) { Ok(()) } else { Err("no bodies overlap that may be moved") }
+    },
+    plan: |given, _| mend(given.scene, Mend::PushAllApart).ok_or_else(|| "nothing could be moved".into()),
+};
+
+pub(super) const GROW_MAP: Tool = Tool {
+    id: "grow_map",
+    label: "Grow the map to hold all",
+    group: ToolGroup::Mend,
+    help: "Enlarges the map by whole tiles until all moving bodies start inside",
+    inputs: &[],
+    enabled: |given| {
+        let any = given.scene.bodies.iter().any(|body| is_outside(given.scene, body));
+        if any { Ok(()) } else { Err("no moving body starts outside the map") }
+    },
+    plan: |given, _| mend(given.scene, Mend::GrowMap).ok_or_else(|| "the map cannot grow that far".into()),
+};
+
+pub(super) const FIT_TILES: Tool = Tool {
+    id: "fit_tiles",
+    label: "Fit tiles",
+    group: ToolGroup::Mend,
+    help: "Chooses the number of tiles by the size of the balls; changes the speed, never the result",
+    inputs: &[],
+    enabled: |given| {
+        let fits = fitting_tiles(given.scene) == given.scene.map.tiles;
+        if fits { Err("the tiles fit") } else { Ok(()) }
+    },
+    plan: |given, _| mend(given.scene, Mend::FitTiles).ok_or_else(|| "the tiles fit".into()),
+};
+
+/// The edits that put this right; `None` where there is nothing to do or it cannot be done.
+pub fn mend(scene: &Scene, mend: Mend) -> Option<Plan> {
+    match mend {
+        Mend::PushApart(a, b) => push_pair(scene, a, b),
+        Mend::PushAllApart => push_all(scene),
+        Mend::GrowMap => grow_map(scene),
+        Mend::FitTiles => {
+            let tiles = fitting_tiles(scene);
+            (tiles != scene.map.tiles).then(|| Plan::new("Fit tiles", vec![Edit::MapTiles(tiles)]))
+        }
+        Mend::MakeIdsUnique => Some(Plan::new("Make IDs unique", vec![Edit::MakeIdsUnique])),
+    }
+}
+
+/// A document with all put right that can be, and what was done, one line each.
+pub fn mend_all(document: &Document) -> Result<(Document, Vec<String>), EditError> {
+    let (mut document, mut done) = (document.clone(), Vec::new());
+    let steps = [
+        (Mend::MakeIdsUnique, "gave new UserIDs to what repeated one"),
+        (Mend::PushAllApart, "pushed overlapping bodies apart"),
+        (Mend::GrowMap, "enlarged the map to hold all moving bodies"),
+        (Mend::FitTiles, "fitted the tiles to the balls"),
+    ];
+    for (step, what) in steps {
+        let Some(scene) = document.scene() else { break };
+        let is_wanted = match step {
+            Mend::MakeIdsUnique => has_repeated_ids(scene),
+            _ => troubles(scene).iter().any(|trouble| solves(step, trouble.mend)),
+        };
+        let Some(plan) = is_wanted.then(|| mend(scene, step)).flatten() else { continue };
+        let remark = plan.remark.map_or(String::new(), |remark| format!(" ({remark})"));
+        document = document.apply(&Edit::All(plan.edits))?.document;
+        done.push(format!("{what}{remark}"));
+    }
+    Ok((document, done))
+}
+
+fn solves(step: Mend, wanted: Option<Mend>) -> bool {
+    wanted == Some(step) || (step == Mend::PushAllApart && matches!(wanted, Some(Mend::PushApart(..))))
+}
+
+fn has_repeated_ids(scene: &Scene) -> bool {
+    // The k-th of an id is labelled `id#k`.
+    scene.bodies.iter().any(|body| body.label.contains('#'))
+        || scene.forces.iter().any(|force| force.label.contains('#'))
+}
+
+fn first_overlap(scene: &Scene) -> bool {
+    let mut found = false;
+    for_each_near(&scene.bodies, 0.0, |a, b| {
+        let (a, b) = (&scene.bodies[a], &scene.bodies[b]);
+        found = may_part(a, b) && overlap(scene, a, b).is_some();
+        !found
+    });
+    found
+}
+
+fn push_pair(scene: &Scene, a: NodeKey, b: NodeKey) -> Option<Plan> {
+    let find = |key| scene.bodies.iter().find(|body| body.key == key);
+    let (mut a, mut b) = (find(a)?.clone(), find(b)?.clone());
+    let label = format!("Push {} and {} apart", a.display_name(), b.display_name());
+    overlap(scene, &a, &b)?;
+    push(&mut a, &mut b)?;
+    let changed = [a, b].into_iter().filter(may_move);
+    Some(Plan::new(label, changed.map(|body| placed(&body)).collect()))
+}
+
+/// Moves two overlapping bodies along their shortest way until they touch, each by half if both may move.
+fn push(a: &mut Body, b: &mut Body) -> Option<()> {
+    let now = gap(a, b)?;
+    let way = now.towards * -now.distance;
+    match (may_move(a), may_move(b)) {
+        (true, true) => {
+            a.position -= way / 2.0;
+            b.position += way / 2.0;
+        }
+        (true, false) => a.position -= way,
+        (false, true) => b.position += way,
+        (false, false) => return None,
+    }
+    Some(())
+}
+
+fn push_all(scene: &Scene) -> Option<Plan> {
+    let mut bodies = scene.bodies.clone();
+    let mut left = 0;
+    for _ in 0..ROUNDS {
+        let mut pairs = Vec::new();
+        for_each_near(&bodies, 0.0, |a, b| {
+            if may_part(&bodies[a], &bodies[b]) && overlap(scene, &bodies[a], &bodies[b]).is_some() {
+                pairs.push((a, b));
+            }
+            true
+        });
+        left = pairs.len();
+        if left == 0 {
+            break;
+        }
+        // Plates last, so that no round ends with a ball behind one.
+        pairs.sort_by_key(|&(a, b)| (!(bodies[a].is_dynamic() && bodies[b].is_dynamic()), a, b));
+        for (a, b) in pairs {
+            let [one, other] = bodies.get_disjoint_mut([a, b]).ok()?;
+            if overlap(scene, one, other).is_some() {
+                push(one, other);
+            }
+        }
+    }
+    let moved = bodies.iter().zip(&scene.bodies).filter(|(now, before)| now.position != before.position);
+    let edits: Vec<Edit> = moved.map(|(now, _)| placed(now)).collect();
+    let remark = (left > 0).then(|| format!("{left} pairs still overlap: there is too little room"));
+    let label = format!("Push {} bodies apart", edits.len());
+    (!edits.is_empty()).then(|| Plan { remark, ..Plan::new(label, edits) })
+}
+
+fn placed(body: &Body) -> Edit {
+    Edit::Body { key: body.key, change: BodyChange::Position(body.position) }
+}
+
+/// Enlarges the map by whole tiles; where something lies below 0, all moves up by whole tiles.
+fn grow_map(scene: &Scene) -> Option<Plan> {
+    let map = &scene.map;
+    let side = map.size / DVec3::from_array(map.tiles.map(f64::from));
+    let moving = Extent::around(scene.bodies.iter().filter(|body| body.is_dynamic()))?;
+    let shift = (-moving.min.min(DVec3::ZERO) / side).ceil() * side;
+    let (low, high) = (map.size + shift, moving.max + shift);
+    let counts = (low.max(high) / side).ceil();
+    // A map that is an exact number of tiles must not gain one by rounding.
+    let counts = DVec3::select(high.cmple(low), (low / side).round(), counts);
+    if !(counts.is_finite() && counts.cmple(DVec3::splat(MOST_ON_AXIS)).all()) {
+        return None;
+    }
+    let size = DVec3::select((shift.cmpeq(DVec3::ZERO)) & high.cmple(map.size), map.size, counts * side);
+    let mut edits = vec![Edit::MapSize(size), Edit::MapTiles(counts.to_array().map(|count| count as u32))];
+    let mut label = "Grow the map".to_owned();
+    if shift != DVec3::ZERO {
+        edits.extend(shifted(scene, shift));
+        label = format!("Grow the map and move all by ({}, {}, {}) m", shift.x, shift.y, shift.z);
+    }
+    (size != map.size).then(|| Plan::new(label, edits))
+}
+
+/// Moves every body and force.
+fn shifted(scene: &Scene, by: DVec3) -> impl Iterator<Item = Edit> {
+    let bodies = scene.bodies.iter().map(move |body| {
+        let change = BodyChange::Position(body.position + by);
+        Edit::Body { key: body.key, change }
+    });
+    let forces = scene.forces.iter().filter_map(move |force| {
+        let kind = moving::shifted(force.kind, by)?;
+        Some(Edit::Force { key: force.key, change: ForceChange::Kind(kind) })
+    });
+    forces.chain(bodies)
+}

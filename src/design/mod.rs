@@ -1,0 +1,38 @@
+//! Ways to build, arrange, select and mend: pure functions from a scene to the edits that change it, each one undo
+//! step. Knows neither widgets nor files.
+//!
+//! [`TOOLS`] is the one table: menus, palette, dialogs and tests follow.
+
+mod arrange;
+mod builder;
+mod copies;
+mod extent;
+mod formula;
+mod gap;
+mod group;
+mod measure;
+mod mend;
+mod moving;
+mod near;
+mod parts;
+mod place;
+mod plan;
+mod select;
+mod tool;
+mod tools;
+mod trouble;
+mod turn;
+
+pub use copies::{duplicate, is_clear, paste};
+pub use extent::Extent;
+pub use formula::{Formula, Instance};
+pub use gap::{Gap, gap};
+pub use group::{group, rename_group, ungroup};
+pub use measure::Mend;
+pub use mend::{mend, mend_all};
+pub use moving::moved;
+pub use place::round as round_size;
+pub use plan::{Eye, Given, Plan};
+pub use tool::{Input, Kind, Tool, ToolGroup, Values};
+pub use tools::TOOLS;
+pub use trouble::{Trouble, TroubleKind, troubles};

@@ -1,0 +1,38 @@
+//! Sizes and places to begin with: round numbers for the map at hand, on the floor where there is one.
+
+use glam::DVec3;
+
+use super::plan::Given;
+use crate::scene::{Scene, Shape, rotation_matrix};
+
+/// How much a level plate may be tilted and still be a floor, rad.
+const LEVEL: f64 = 1e-6;
+
+/// 0.5 for 0.47: a size that a person would have typed.
+pub fn round(value: f64) -> f64 {
+    format!("{value:.0e}").parse().unwrap_or(value)
+}
+
+/// A share of the map's smallest side, rounded.
+pub(super) fn of_map(given: &Given<'_>, share: f64) -> f64 {
+    round(given.scene.map.size.min_element() * share)
+}
+
+/// The height of the highest level plate below a point, or 0.
+pub(super) fn floor_under(scene: &Scene, at: DVec3) -> f64 {
+    let heights = scene.bodies.iter().filter_map(|body| {
+        let Shape::Plane { half_x, half_y } = body.shape else { return None };
+        let matrix = rotation_matrix(body.rotation);
+        let is_level = (matrix.z_axis.y.abs() - 1.0).abs() < LEVEL;
+        let local = matrix.transpose() * (at - body.position);
+        let is_below = local.x.abs() <= half_x && local.y.abs() <= half_y && body.position.y <= at.y;
+        (is_level && is_below).then_some(body.position.y)
+    });
+    heights.fold(None, |best: Option<f64>, y| Some(best.map_or(y, |best| best.max(y)))).unwrap_or(0.0)
+}
+
+/// Where a part stands by default: in the middle of the map, on the floor.
+pub(super) fn stand(given: &Given<'_>) -> DVec3 {
+    let middle = given.scene.map.size / 2.0;
+    DVec3::new(middle.x, floor_under(given.scene, middle), middle.z)
+}

@@ -1,0 +1,213 @@
+//! Groups with names: folders of the tree that hold bodies and forces, nested by `/`, to select, hide and lock at once.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use egui::{Align2, FontId, Rect, Sense, Ui, pos2, vec2};
+
+use super::rows::{INDENT, Row, row_space};
+use super::{Renamed, Tree};
+use crate::editor::Action;
+use crate::gui::colors::tones;
+use crate::gui::context::{AppContext, Message, Shown};
+use crate::gui::theme::ROW_HEIGHT;
+use crate::gui::{icons, numbers, widgets};
+use crate::scene::{BodyChange, Edit, ForceChange, NodeKey, Scene};
+
+/// One row of a group.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Named {
+    /// Such as `table/legs`.
+    pub path: String,
+    pub depth: usize,
+    /// Everything in it, groups inside it included.
+    pub keys: Vec<NodeKey>,
+    pub open: bool,
+    hidden: bool,
+    locked: bool,
+}
+
+impl Named {
+    fn name(&self) -> &str {
+        self.path.rsplit('/').next().unwrap_or(&self.path)
+    }
+}
+
+/// What of a group the filter lets through, and what is known of the whole of it.
+#[derive(Default)]
+struct Content {
+    rows: Vec<Row>,
+    keys: Vec<NodeKey>,
+    visible: bool,
+    free: bool,
+}
+
+/// The rows of all named groups. A filter opens those in which it finds something and leaves out the others.
+pub fn collect(
+    scene: &Scene,
+    is_found: &dyn Fn(NodeKey) -> bool,
+    filtered: bool,
+    open: &BTreeSet<String>,
+) -> Vec<Row> {
+    let mut groups = BTreeMap::<Vec<&str>, Content>::new();
+    let bodies = scene.bodies.iter().enumerate().filter_map(|(index, body)| {
+        let row = Row::Body { index, key: body.key, depth: 0 };
+        Some((body.group.as_deref()?, row, body.key, body.hidden, body.locked))
+    });
+    let forces = scene.forces.iter().enumerate().filter_map(|(index, force)| {
+        let row = Row::Force { index, key: force.key, depth: 0 };
+        Some((force.group.as_deref()?, row, force.key, force.hidden, force.locked))
+    });
+    for (group, row, key, hidden, locked) in forces.chain(bodies) {
+        let path: Vec<&str> = group.split('/').collect();
+        for depth in 1..=path.len() {
+            let content = groups.entry(path[..depth].to_vec()).or_default();
+            content.keys.push(key);
+            content.visible |= !hidden;
+            content.free |= !locked;
+        }
+        if is_found(key)
+            && let Some(content) = groups.get_mut(&path)
+        {
+            content.rows.push(row);
+        }
+    }
+    let mut rows = Vec::new();
+    for (path, content) in &groups {
+        let is_open = |path: &[&str]| filtered || open.contains(&path.join("/"));
+        let found_below = || {
+            groups
+                .range(path.clone()..)
+                .take_while(|(other, _)| other.starts_with(path))
+                .any(|(_, content)| !content.rows.is_empty())
+        };
+        let in_sight = (1..path.len()).all(|depth| is_open(&path[..depth]));
+        if !in_sight || (filtered && !found_below()) {
+            continue;
+        }
+        let (depth, open) = (path.len() - 1, is_open(path));
+        rows.push(Row::Named(Named {
+            path: path.join("/"),
+            depth,
+            keys: content.keys.clone(),
+            open,
+            hidden: !content.visible,
+            locked: !content.free,
+        }));
+        if open {
+            rows.extend(content.rows.iter().map(|row| row.at_depth(depth + 1)));
+        }
+    }
+    rows
+}
+
+impl Tree {
+    /// Opens the groups in which something lies that was selected elsewhere, alone.
+    pub(super) fn reveal(&mut self, context: &AppContext<'_>, shown: &Shown) {
+        let [key] = context.session.selection().keys() else { return };
+        if self.revealed == Some(*key) {
+            return;
+        }
+        self.revealed = Some(*key);
+        let body = shown.body(*key).and_then(|body| body.group.as_deref());
+        let group = body.or_else(|| shown.force(*key).and_then(|force| force.group.as_deref()));
+        let Some(group) = group else { return };
+        let ends = group.match_indices('/').map(|(at, _)| at).chain([group.len()]);
+        self.open_named.extend(ends.map(|end| group[..end].to_owned()));
+    }
+
+    pub(super) fn named_row(&mut self, ui: &mut Ui, context: &AppContext<'_>, shown: &Shown, named: &Named) {
+        let selection = context.session.selection();
+        let selected = named.keys.iter().all(|key| selection.contains(*key));
+        let (rect, response) = row_space(ui, selected, named.name());
+        let left = rect.left() + 12.0 + INDENT * named.depth as f32;
+        let folder = Rect::from_min_max(rect.min, pos2(left + 8.0, rect.bottom()));
+        let toggle = ui.interact(folder, ui.scope_id().with(("folder", &named.path)), Sense::click());
+        let verb = if named.open { "Close" } else { "Open" };
+        widgets::name_button(ui, &toggle, &format!("{verb} {}", named.path), named.open);
+        triangle(ui, pos2(left, rect.center().y), named.open);
+        let name = Rect::from_min_max(pos2(left + 10.0, rect.top()), rect.max);
+        if self.is_renaming(&Renamed::Group(named.path.clone())) {
+            ui.scope_builder(egui::UiBuilder::new().max_rect(name), |ui| {
+                ui.horizontal_centered(|ui| self.rename_field(ui, context, shown));
+            });
+        } else {
+            label(ui, name, named, selected);
+        }
+        marks(ui, rect, context, shown, named, response.contains_pointer());
+        response.context_menu(|ui| super::rows::context_menu(ui, context));
+        if toggle.clicked() {
+            if !self.open_named.remove(&named.path) {
+                self.open_named.insert(named.path.clone());
+            }
+        } else if response.double_clicked() {
+            self.start_renaming(Renamed::Group(named.path.clone()), named.path.clone());
+        } else if response.clicked() || (response.secondary_clicked() && !selected) {
+            // Many at once: nothing to scroll to.
+            self.scrolled_to = named.keys.last().copied();
+            let adds = ui.input(|input| input.modifiers.command || input.modifiers.shift);
+            let keys = named.keys.clone();
+            context.outbox.act(if adds { Action::AddToSelection(keys) } else { Action::Select(keys) });
+        }
+        if toggle.double_clicked() {
+            context.outbox.send(Message::Frame(named.keys.clone()));
+        }
+    }
+}
+
+fn triangle(ui: &Ui, center: egui::Pos2, open: bool) {
+    let tip = if open { vec2(0.0, 3.5) } else { vec2(3.5, 0.0) };
+    let side = if open { vec2(4.0, 0.0) } else { vec2(0.0, 4.0) };
+    let corners = vec![center + tip, center - tip + side, center - tip - side];
+    ui.painter().add(egui::Shape::convex_polygon(corners, tones(ui).weak, egui::Stroke::NONE));
+}
+
+fn label(ui: &Ui, rect: Rect, named: &Named, selected: bool) {
+    let (tones, visuals) = (tones(ui), ui.visuals());
+    let color = if selected { visuals.selection.stroke.color } else { visuals.text_color() };
+    let faded = if named.hidden { 0.5 } else { 1.0 };
+    let painter = ui.painter_at(rect.with_max_x(rect.right() - 44.0));
+    let at = pos2(rect.left(), rect.center().y);
+    let font = FontId::proportional(13.0);
+    let drawn = painter.text(at, Align2::LEFT_CENTER, named.name(), font, color.gamma_multiply(faded));
+    let at = pos2(drawn.right() + 8.0, at.y);
+    let count = numbers::count(named.keys.len() as u64);
+    painter.text(at, Align2::LEFT_CENTER, count, FontId::proportional(11.0), tones.weak);
+}
+
+/// Eye and lock of all in the group.
+fn marks(ui: &mut Ui, row: Rect, context: &AppContext<'_>, shown: &Shown, named: &Named, pointed: bool) {
+    for (column, is_eye, on) in [(0.0, true, named.hidden), (1.0, false, named.locked)] {
+        let center = pos2(row.right() - 13.0 - 19.0 * column, row.center().y);
+        let rect = Rect::from_center_size(center, vec2(18.0, ROW_HEIGHT));
+        let response =
+            ui.interact(rect, ui.scope_id().with(("named mark", &named.path, is_eye)), Sense::click());
+        let verb = match (is_eye, on) {
+            (true, false) => "Hide",
+            (true, true) => "Show",
+            (false, false) => "Lock",
+            (false, true) => "Unlock",
+        };
+        widgets::name_button(ui, &response, &format!("{verb} group {}", named.path), on);
+        if pointed || on || response.hovered() || response.has_focus() {
+            let color = if response.hovered() { tones(ui).strong } else { tones(ui).weak };
+            let square = Rect::from_center_size(center, vec2(13.0, 13.0));
+            if is_eye {
+                icons::paint_eye(ui.painter(), square, color, on);
+            } else {
+                icons::paint_lock(ui.painter(), square, color, on);
+            }
+        }
+        if response.on_hover_text(format!("{verb} all in {}", named.path)).clicked() {
+            let (of_body, of_force) = if is_eye {
+                (BodyChange::Hidden(!on), ForceChange::Hidden(!on))
+            } else {
+                (BodyChange::Locked(!on), ForceChange::Locked(!on))
+            };
+            let edits = named.keys.iter().map(|&key| match shown.body(key) {
+                Some(_) => Edit::Body { key, change: of_body.clone() },
+                None => Edit::Force { key, change: of_force.clone() },
+            });
+            context.outbox.act(Action::Edit { edit: Edit::All(edits.collect()), gesture: None });
+        }
+    }
+}
