@@ -3,14 +3,14 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::{Answer, Command, Gesture, Place};
+use super::{Answer, Gesture, Place, SessionCommand};
 use crate::record::EventRow;
 use crate::scene::{Edit, NodeKey};
 use crate::sim::Method;
 
 #[derive(Clone, Debug)]
 pub enum Action {
-    Command(Command),
+    Command(SessionCommand),
     /// Edits of the same gesture in a row are one undo point and reach the simulation when it ends.
     Edit {
         edit: Edit,

@@ -10,7 +10,7 @@ impl Session {
     pub(super) fn copy(&mut self) -> Outcome {
         let Some(scene) = self.scene() else { return Outcome::no_scene() };
         match text_of(scene, self.selection.keys()) {
-            Ok(text) => self.requests.push(Request::SetClipboard(text)),
+            Ok(text) => self.talk.requests.push(Request::SetClipboard(text)),
             Err(reason) => return Outcome::Refused(reason),
         }
         Outcome::Done
@@ -19,7 +19,7 @@ impl Session {
     pub(super) fn cut(&mut self) -> Outcome {
         match self.copy() {
             Outcome::Done => self.delete(),
-            refused => refused,
+            refused @ Outcome::Refused(_) => refused,
         }
     }
 

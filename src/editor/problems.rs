@@ -1,6 +1,6 @@
 //! The list of problems: those of the document, then those of the simulation's start.
 
-use super::{Command, Session};
+use super::{Session, SessionCommand};
 use crate::record::RunState;
 use crate::scene::{Diagnostic, NodeKey, Severity};
 
@@ -26,7 +26,7 @@ pub struct Problem {
     /// What to select when it is clicked.
     pub key: Option<NodeKey>,
     /// The command that puts it right.
-    pub fix: Option<Command>,
+    pub fix: Option<SessionCommand>,
 }
 
 impl Session {
@@ -40,7 +40,7 @@ impl Session {
                 let names_a_repeated_id = problem.key.is_some_and(|key| repeated.contains(&key))
                     && problem.severity == Severity::Warning
                     && problem.message.contains("UserID");
-                problem.fix = names_a_repeated_id.then_some(Command::MakeIdsUnique);
+                problem.fix = names_a_repeated_id.then_some(SessionCommand::MakeIdsUnique);
                 problem
             })
             .collect();
@@ -78,7 +78,7 @@ impl Session {
             position: None,
             path: String::new(),
             key: None,
-            fix: Some(Command::Reset),
+            fix: Some(SessionCommand::Reset),
         })
     }
 

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::accuracy::Accuracy;
 use super::context::{AppContext, Message, Outbox, Shown};
-use super::dialogs::{Dialogs, FileDialogs};
+use super::dialogs::{Dialogs, FileDialogs, HelpPage};
 use super::inspector::Inspector;
 use super::launch::Script;
 use super::problems::Problems;
@@ -19,7 +19,9 @@ use super::transport::Transport;
 use super::tree::Tree;
 use super::viewport::{self, Canvas, Views};
 use super::{menu, shortcuts, start, status, strip, theme};
-use crate::editor::{Action, Command, Notice, Outcome, Request, Session, Storage};
+use crate::editor::{
+    Action, Command, Notice, Outcome, Request, Session, SessionCommand, Storage, WindowCommand,
+};
 use crate::record::Runner;
 use crate::scene::shown_path;
 
@@ -165,7 +167,7 @@ impl App {
         // a window for a script keeps nothing, so there is nothing to ask about
         if closing && self.session.is_dirty() && !self.forgetful {
             ctx.send_viewport_cmd(ViewportCommand::CancelClose);
-            self.outbox.command(Command::Quit);
+            self.outbox.command(SessionCommand::Quit);
         }
         self.set_title(ctx);
     }
@@ -285,7 +287,7 @@ impl App {
 
     fn carry_out_message(&mut self, ctx: &Context, message: Message) {
         match message {
-            Message::Do(Action::Command(command)) => drop(self.execute(ctx, command)),
+            Message::Command(command) => drop(self.execute(ctx, command)),
             Message::Do(action) => drop(self.session.perform(action)),
             Message::Frame(keys) => {
                 self.with_views(ctx, |views, context| views.frame(context, Some(&keys), None));
@@ -312,32 +314,42 @@ impl App {
         }
     }
 
-    /// First the session; what it does not know is the window's.
+    /// Hands a command to who carries it out; one that its row of the table disables is refused.
     pub(super) fn execute(&mut self, ctx: &Context, command: Command) -> Outcome {
-        let outcome = self.session.perform(Action::Command(command));
-        if outcome != Outcome::NotMine {
-            return outcome;
+        let refusal = self.session.refusal(command);
+        match (command, refusal) {
+            (Command::Session(command), _) => return self.session.perform(Action::Command(command)),
+            (_, Some(reason)) => {
+                self.toasts.add(Notice::warning(reason.clone()));
+                return Outcome::Refused(reason);
+            }
+            (Command::View(command), None) => {
+                self.with_views(ctx, |views, context| views.execute(command, context));
+            }
+            (Command::Window(command), None) => self.execute_here(ctx, command),
         }
+        Outcome::Done
+    }
+
+    fn execute_here(&mut self, ctx: &Context, command: WindowCommand) {
         match command {
-            Command::SwitchColors => {
+            WindowCommand::SwitchColors => {
                 let dark = ctx.theme() == egui::Theme::Dark;
                 ctx.set_theme(if dark { egui::Theme::Light } else { egui::Theme::Dark });
             }
-            Command::ShowAccuracy => self.layout.tab = Tab::Accuracy,
-            Command::Find => self.tree.find(),
-            Command::Rename => {
+            WindowCommand::ShowAccuracy => self.layout.tab = Tab::Accuracy,
+            WindowCommand::Find => self.tree.find(),
+            WindowCommand::Rename => {
                 if let Some(key) = self.session.selection().primary() {
                     self.outbox.send(Message::Rename(key));
                     ctx.request_repaint();
                 }
             }
-            _ => {
-                let known = self.dialogs.execute(command)
-                    || self.with_views(ctx, |views, context| views.execute(command, context));
-                debug_assert!(known, "nobody knows {command:?}");
-            }
+            WindowCommand::Help => self.dialogs.open_help(HelpPage::Window),
+            WindowCommand::Shortcuts => self.dialogs.open_help(HelpPage::Keys),
+            WindowCommand::About => self.dialogs.open_help(HelpPage::About),
+            WindowCommand::Palette => self.dialogs.open_palette(),
         }
-        Outcome::Done
     }
 
     pub(super) fn perform(&mut self, action: Action) -> Outcome {

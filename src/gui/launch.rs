@@ -11,7 +11,7 @@ use egui::{Context, ViewportCommand};
 use super::app::{App, Parts, TIGHT, Tab};
 use super::dialogs::NativeFileDialogs;
 use super::error::GuiError;
-use crate::editor::{Action, COMMANDS, Command, Outcome, Storage};
+use crate::editor::{Action, COMMANDS, Command, Outcome, Storage, ViewCommand};
 use crate::record::ThreadRunner;
 use crate::render::write_png;
 use crate::scene::{check_writable, same_file, shown_path};
@@ -207,7 +207,7 @@ fn step(text: &str) -> Option<Step> {
             "tab" if value == "events" => Some(Step::Tab(Tab::Events)),
             "overlay" => {
                 let index = OVERLAYS.iter().position(|overlay| overlay.id == value)?;
-                Some(Step::Command(Command::ToggleOverlay(index)))
+                Some(Step::Command(ViewCommand::ToggleOverlay(index).into()))
             }
             _ => None,
         };
@@ -314,7 +314,7 @@ impl App {
         };
         match outcome {
             Outcome::Refused(reason) => Err(reason),
-            _ => Ok(()),
+            Outcome::Done => Ok(()),
         }
     }
 
@@ -375,15 +375,16 @@ fn take_picture(ctx: &Context, path: PathBuf, report: Arc<Mutex<Report>>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::editor::SessionCommand;
 
     #[test]
     fn steps_are_read_and_unknown_ones_refused() {
-        assert_eq!(step("next_event"), Some(Step::Command(Command::NextEvent)));
+        assert_eq!(step("next_event"), Some(Step::Command(SessionCommand::NextEvent.into())));
         assert_eq!(step("select:5853"), Some(Step::Select("5853".into())));
         assert_eq!(step("tab:problems"), Some(Step::Tab(Tab::Problems)));
         assert_eq!(step("fly"), None);
         assert_eq!(step("overlay:nothing"), None);
-        assert_eq!(counted_step("next_event*3"), Ok((Step::Command(Command::NextEvent), 3)));
+        assert_eq!(counted_step("next_event*3"), Ok((Step::Command(SessionCommand::NextEvent.into()), 3)));
         for (text, reason) in [
             ("next_event*-1", "count"),
             ("next_event*0", "count"),

@@ -23,7 +23,7 @@ use diagnostic::shown;
 
 pub use diagnostic::{Diagnostic, Severity, escaped, shown_path};
 pub use document::Document;
-pub use edit::{BodyChange, Edit, EditError, Edited, ForceChange};
+pub use edit::{BodyChange, Edit, EditError, Edited, ForceChange, Touched};
 pub use number::NumberStyle;
 pub use params::{PARAMS, ParamInfo, SimParams};
 pub use save::{

@@ -9,7 +9,7 @@ use super::colors::tones;
 use super::context::{AppContext, Message, Shown};
 use super::theme::ROW_HEIGHT;
 use super::widgets::panel_heading;
-use crate::editor::{Action, Command};
+use crate::editor::{Action, SessionCommand};
 use crate::record::Frame;
 use crate::scene::{BodyChange, Edit, ForceChange, NodeKey};
 use crate::sim::ContactState;
@@ -109,7 +109,7 @@ impl Tree {
         if rest.is_positive() {
             let free = ui.interact(rest, ui.scope_id().with("below rows"), egui::Sense::click());
             if free.clicked() {
-                context.outbox.command(Command::SelectNone);
+                context.outbox.command(SessionCommand::SelectNone);
             }
         }
         self.known.rows = rows;

@@ -4,7 +4,7 @@ use egui::{Align, Button, Layout, Rect, RichText, Ui, UiBuilder, vec2};
 
 use super::pane::Pane;
 use super::{Scenery, look_name};
-use crate::editor::{self, Command};
+use crate::editor::{self, Command, SessionCommand, ViewCommand, WindowCommand};
 use crate::gui::colors::color32;
 use crate::gui::icons;
 use crate::gui::menu;
@@ -38,7 +38,7 @@ impl Pane {
             let color = ui.style().interact(&response).text_color();
             icons::paint_panes(ui.painter(), square.shrink(4.0), color, 1);
             crate::gui::widgets::name_button(ui, &response, &name, false);
-            let info = editor::info(Command::MaximizeView);
+            let info = editor::info(ViewCommand::Maximize);
             let help = info.map_or(String::new(), |info| info.tooltip(scenery.context.session));
             asked.maximize |= response.on_hover_text(help).clicked();
         });
@@ -113,14 +113,14 @@ impl Pane {
     /// Right click in a view.
     pub(super) fn context_menu(response: &egui::Response, scenery: &Scenery<'_>) {
         const COMMANDS: [Command; 8] = [
-            Command::FrameSelection,
-            Command::FrameAll,
-            Command::Rename,
-            Command::Duplicate,
-            Command::Delete,
-            Command::Hide,
-            Command::ShowAll,
-            Command::SelectNone,
+            Command::View(ViewCommand::FrameSelection),
+            Command::View(ViewCommand::FrameAll),
+            Command::Window(WindowCommand::Rename),
+            Command::Session(SessionCommand::Duplicate),
+            Command::Session(SessionCommand::Delete),
+            Command::Session(SessionCommand::Hide),
+            Command::Session(SessionCommand::ShowAll),
+            Command::Session(SessionCommand::SelectNone),
         ];
         response.context_menu(|ui| {
             ui.set_min_width(200.0);

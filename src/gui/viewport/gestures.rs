@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 
 use super::pane::Pane;
 use super::{Scenery, ndc};
-use crate::editor::{Action, Drag, Gesture};
+use crate::editor::{Action, Drag, Gesture, ViewCommand};
 use crate::gui::colors::color32;
 use crate::gui::context::Message;
 use crate::gui::numbers;
@@ -82,7 +82,7 @@ impl Pane {
             self.click(ui, response, rect, scenery, &input);
         }
         if response.double_clicked() && hover.is_some() {
-            scenery.context.outbox.command(crate::editor::Command::FrameSelection);
+            scenery.context.outbox.command(ViewCommand::FrameSelection);
         }
         if response.drag_started_by(PointerButton::Primary) {
             self.take_hold(ui, rect, scenery, &input);

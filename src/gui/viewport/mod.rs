@@ -12,7 +12,7 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use super::context::{AppContext, Message, Shown};
-use crate::editor::Command;
+use crate::editor::ViewCommand;
 use crate::record::{EventRow, Frame};
 use crate::scene::{Motion, NodeKey};
 use crate::view::{
@@ -175,37 +175,37 @@ impl Views {
             }
             if outcome.maximize {
                 self.active = *index;
-                context.outbox.command(Command::MaximizeView);
+                context.outbox.command(ViewCommand::Maximize);
             }
         }
     }
 
-    /// Carries out a command about views; `false` if it is none.
-    pub fn execute(&mut self, command: Command, context: &AppContext<'_>) -> bool {
+    /// Carries out a command about views.
+    pub fn execute(&mut self, command: ViewCommand, context: &AppContext<'_>) {
         match command {
-            Command::FrameAll => self.frame(context, None, Some(self.active)),
-            Command::FrameSelection => {
+            ViewCommand::FrameAll => self.frame(context, None, Some(self.active)),
+            ViewCommand::FrameSelection => {
                 let keys = context.session.selection().keys();
                 self.frame(context, Some(keys), Some(self.active));
             }
-            Command::ViewPerspective => self.panes[self.active].look_from(None),
-            Command::ViewAlong(axis) => self.panes[self.active].look_from(Some(axis)),
-            Command::ToggleProjection => {
+            ViewCommand::Perspective => self.panes[self.active].look_from(None),
+            ViewCommand::Along(axis) => self.panes[self.active].look_from(Some(axis)),
+            ViewCommand::ToggleProjection => {
                 let camera = &mut self.panes[self.active].camera;
                 camera.projection = match camera.projection {
                     Projection::Perspective => Projection::Orthographic,
                     Projection::Orthographic => Projection::Perspective,
                 };
             }
-            Command::MaximizeView => {
+            ViewCommand::Maximize => {
                 let one = self.layout == Layout::One;
                 let next = if one { self.before_maximized } else { Layout::One };
                 self.set_layout(next);
             }
-            Command::ShowOneView => self.set_layout(Layout::One),
-            Command::ShowTwoViews => self.set_layout(Layout::Two),
-            Command::ShowFourViews => self.set_layout(Layout::Four),
-            Command::ToggleSnapping => {
+            ViewCommand::OneView => self.set_layout(Layout::One),
+            ViewCommand::TwoViews => self.set_layout(Layout::Two),
+            ViewCommand::FourViews => self.set_layout(Layout::Four),
+            ViewCommand::ToggleSnapping => {
                 self.snapping = !self.snapping;
                 let text = if self.snapping {
                     "Snapping is on: dragged bodies stop at round steps (G)"
@@ -214,14 +214,12 @@ impl Views {
                 };
                 context.outbox.send(Message::Tell(text.to_owned()));
             }
-            Command::ToggleOverlay(index) => {
+            ViewCommand::ToggleOverlay(index) => {
                 if let Some(overlay) = OVERLAYS.get(index) {
                     self.panes[self.active].overlays.toggle(overlay.id);
                 }
             }
-            _ => return false,
         }
-        true
     }
 
     fn set_layout(&mut self, layout: Layout) {

@@ -48,6 +48,7 @@ impl Work<'_> {
             added = el.children.iter().rev().find_map(Child::element).map(|node| node.key);
             Ok(el)
         })?;
+        self.touched.keys.extend(added);
         self.added.extend(added);
         self.forget_places();
         Ok(())
@@ -62,6 +63,7 @@ impl Work<'_> {
                 Ok(pen.with_splices(el, ranges.map(|(start, end)| (start..end, Vec::new()))))
             })?;
         }
+        self.touched.keys.extend(keys);
         self.forget_places();
         Ok(())
     }
@@ -87,6 +89,7 @@ impl Work<'_> {
             })?;
         }
         added.sort_unstable();
+        self.touched.keys.extend(added.iter().map(|(_, key)| key));
         self.added.extend(added.into_iter().map(|(_, key)| key));
         self.forget_places();
         Ok(())

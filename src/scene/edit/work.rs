@@ -5,7 +5,7 @@ use std::sync::{Arc, OnceLock};
 use super::patch::{self, Changes};
 use super::pen::{Changed, Pen, Spot, check, check_vector};
 use super::style::lead_at;
-use super::{Edit, EditError, Edited, body, force, settings};
+use super::{Edit, EditError, Edited, Touched, body, force, settings};
 use crate::scene::document::Content;
 use crate::scene::ids::Ids;
 use crate::scene::locate::{self, Index, List};
@@ -24,6 +24,7 @@ pub(super) struct Work<'d> {
     index: Option<Arc<Index>>,
     ids: [Option<Ids>; 2],
     pub added: Vec<NodeKey>,
+    pub touched: Touched,
     /// All that the edit did, as long as it only changed bodies.
     changes: Option<Changes>,
 }
@@ -44,10 +45,13 @@ impl<'d> Work<'d> {
         }
         let index = document.index.get().cloned();
         let (top, changes) = (top.clone(), Some(Changes::new()));
-        Ok(Self { document, pen, top, index, ids: [None, None], added: Vec::new(), changes })
+        let (added, touched) = (Vec::new(), Touched::default());
+        Ok(Self { document, pen, top, index, ids: [None, None], added, touched, changes })
     }
 
     pub fn apply(&mut self, edit: &Edit) -> Result<(), EditError> {
+        self.touched.settings |=
+            matches!(edit, Edit::MapSize(_) | Edit::MapTiles(_) | Edit::TimeSpeed(_) | Edit::Params(_));
         match edit {
             Edit::MapSize(size) => {
                 check_vector("the map's size", *size, Range::Positive)?;
@@ -102,7 +106,8 @@ impl<'d> Work<'d> {
     /// The document after the edit, its version raised or lowered if its use of 1.1 began or ended.
     pub fn finish(mut self) -> Result<Edited, EditError> {
         if self.is_unchanged() {
-            return Ok(Edited { document: self.document.clone(), added: self.added });
+            let (document, touched) = (self.document.clone(), Touched::default());
+            return Ok(Edited { document, added: self.added, touched });
         }
         let mut document = self.make();
         if let Some(changes) = &self.changes
@@ -123,7 +128,7 @@ impl<'d> Work<'d> {
             self.section(&[], |_, root, _| Ok(with_version(pen, root, version)))?;
             document = self.make();
         }
-        Ok(Edited { document, added: self.added })
+        Ok(Edited { document, added: self.added, touched: self.touched })
     }
 
     /// Changes the element at a path below the root; those missing on the way are added if need be.
@@ -173,6 +178,7 @@ impl<'d> Work<'d> {
                 changed.iter().map(|(&at, (_, new))| (at..at + 1, vec![Child::Element(new.clone())]));
             Ok(pen.with_splices(el, splices))
         })?;
+        self.touched.keys.extend(changed.values().map(|(_, new)| new.key));
         self.changes = before.map(|mut all| {
             for (at, (old, new)) in changed {
                 let old = all.remove(&at).map_or(old, |(old, _)| old);
