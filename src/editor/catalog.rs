@@ -4,7 +4,7 @@ use super::Session;
 use super::command::{Addition, Command, Key, Menu, SessionCommand, Shortcut, ViewCommand, WindowCommand};
 use super::command_info::CommandInfo;
 use crate::scene::NumberStyle;
-use crate::view::AxisView;
+use crate::view::{AxisView, Tool};
 
 /// All commands, in the order in which menus list them. Samples, recent files and overlays have tables
 /// of their own and reach the menus through [`SessionCommand::OpenSample`] and the like.
@@ -236,10 +236,22 @@ pub const COMMANDS: &[CommandInfo] = &[
     .icon('⌖')
     .keys(&[Shortcut::plain(Key::Char('F'))])
     .when(Session::has_selection),
-    row(Menu::View, 0, "frame_all", "Frame all", "Brings the whole map into the view")
+    row(Menu::View, 0, "frame_all", "Frame all", "Brings the map and all bodies into the view")
         .view(ViewCommand::FrameAll)
         .icon('⛶')
         .keys(&[Shortcut::plain(Key::Char('A'))]),
+    row(Menu::View, 0, "frame_map", "Frame the map", "Brings the box of the map into the view")
+        .view(ViewCommand::FrameMap)
+        .keys(&[Shortcut::shift(Key::Char('A'))]),
+    row(
+        Menu::View,
+        0,
+        "follow",
+        "Follow a body",
+        "The view moves with the body selected last, or no longer with the one it follows",
+    )
+    .view(ViewCommand::Follow)
+    .keys(&[Shortcut::shift(Key::Char('F'))]),
     row(Menu::View, 1, "view_perspective", "Perspective", "Looks at the scene with perspective")
         .view(ViewCommand::Perspective)
         .keys(&[Shortcut::plain(Key::Char('1'))]),
@@ -288,9 +300,44 @@ pub const COMMANDS: &[CommandInfo] = &[
     )
     .view(ViewCommand::ToggleSnapping)
     .keys(&[Shortcut::plain(Key::Char('G'))]),
-    row(Menu::View, 4, "show_accuracy", "Accuracy", "Shows speed against error of every method")
+    row(Menu::View, 4, "tool_select", "No handles", "Shows no handles: drags select, or move a body")
+        .view(ViewCommand::Tool(Tool::Select))
+        .keys(&[Shortcut::plain(Key::Char('Q'))]),
+    row(
+        Menu::View,
+        4,
+        "tool_move",
+        "Move handles",
+        "Shows arrows, squares and a disc that move the selection",
+    )
+    .view(ViewCommand::Tool(Tool::Move))
+    .keys(&[Shortcut::plain(Key::Char('W'))]),
+    row(Menu::View, 4, "tool_turn", "Turn handles", "Shows rings that turn the selection, velocities too")
+        .view(ViewCommand::Tool(Tool::Turn))
+        .keys(&[Shortcut::plain(Key::Char('E'))]),
+    row(
+        Menu::View,
+        4,
+        "tool_size",
+        "Size handles",
+        "Shows knobs that change a sphere's radius, a plate's sides or the map",
+    )
+    .view(ViewCommand::Tool(Tool::Size))
+    .keys(&[Shortcut::plain(Key::Char('S'))]),
+    row(
+        Menu::View,
+        4,
+        "toggle_local_axes",
+        "Body or world axes",
+        "Turns the handles along the axes of the body selected last, or of the world",
+    )
+    .view(ViewCommand::ToggleLocalAxes)
+    .keys(&[Shortcut::plain(Key::Char('L'))]),
+    row(Menu::View, 5, "show_accuracy", "Accuracy", "Shows speed against error of every method")
         .window(WindowCommand::ShowAccuracy),
-    row(Menu::View, 4, "switch_colors", "Dark or light colours", "Switches the colours of the window")
+    row(Menu::View, 5, "reset_layout", "Reset the panels", "Puts all panels where they are in a new window")
+        .window(WindowCommand::ResetLayout),
+    row(Menu::View, 5, "switch_colors", "Dark or light colours", "Switches the colours of the window")
         .window(WindowCommand::SwitchColors),
     //
     row(Menu::Help, 0, "help", "Help", "Explains the window in one page")

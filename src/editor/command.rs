@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::scene::NumberStyle;
-use crate::view::AxisView;
+use crate::view::{AxisView, Tool};
 
 /// Every user action that needs no further data, by who carries it out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,6 +71,9 @@ pub enum Addition {
 pub enum ViewCommand {
     FrameSelection,
     FrameAll,
+    FrameMap,
+    /// Keeps what was selected last in its place in the view, or no longer.
+    Follow,
     Perspective,
     Along(AxisView),
     Maximize,
@@ -79,6 +82,10 @@ pub enum ViewCommand {
     FourViews,
     ToggleProjection,
     ToggleSnapping,
+    /// What the handles of the selection do.
+    Tool(Tool),
+    /// Handles along the axes of the body, or of the world.
+    ToggleLocalAxes,
     /// The n-th of [`crate::view::OVERLAYS`], in the active view.
     ToggleOverlay(usize),
 }
@@ -89,6 +96,8 @@ pub enum WindowCommand {
     /// Shows the panel that compares speed and errors of the methods.
     ShowAccuracy,
     SwitchColors,
+    /// All panels where they are in a new window.
+    ResetLayout,
     /// Puts the keyboard into the filter of the scene tree.
     Find,
     /// Opens the name of what was selected last for typing.

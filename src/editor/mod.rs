@@ -21,6 +21,7 @@ mod label;
 mod live;
 mod notice;
 mod open_document;
+mod orientation;
 mod palette;
 mod path_text;
 mod playback;

@@ -3,6 +3,7 @@
 use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 
 use crate::editor::{Addition, Command, SessionCommand, ViewCommand};
+use crate::view::Tool;
 
 /// Draws a command's icon into a square; `false` if it has none.
 pub fn paint(painter: &Painter, square: Rect, command: Command, color: Color32) -> bool {
@@ -64,9 +65,46 @@ pub fn paint(painter: &Painter, square: Rect, command: Command, color: Color32) 
                 painter.circle_filled(center, radius * square.width(), color);
             }
         }
+        Command::View(ViewCommand::Tool(tool)) => paint_tool(&pen, tool),
+        Command::View(ViewCommand::ToggleLocalAxes) => {
+            pen.polyline(&[(0.12, 0.3), (0.35, 0.85), (0.92, 0.62)]);
+            pen.polyline(&[(0.35, 0.85), (0.55, 0.12)]);
+        }
         _ => return false,
     }
     true
+}
+
+/// What the handles of a selection do.
+fn paint_tool(pen: &Pen<'_>, tool: Tool) {
+    match tool {
+        Tool::Select => pen.outline(&[(0.25, 0.08), (0.8, 0.58), (0.5, 0.62), (0.3, 0.88)]),
+        Tool::Move => {
+            pen.polyline(&[(0.5, 0.06), (0.5, 0.94)]);
+            pen.polyline(&[(0.06, 0.5), (0.94, 0.5)]);
+            for [a, b, c] in [
+                [(0.36, 0.2), (0.5, 0.05), (0.64, 0.2)],
+                [(0.36, 0.8), (0.5, 0.95), (0.64, 0.8)],
+                [(0.2, 0.36), (0.05, 0.5), (0.2, 0.64)],
+                [(0.8, 0.36), (0.95, 0.5), (0.8, 0.64)],
+            ] {
+                pen.polyline(&[a, b, c]);
+            }
+        }
+        Tool::Turn => {
+            let bow = (0..=14).map(|i| {
+                let angle = i as f32 / 14.0 * 1.6 * std::f32::consts::PI;
+                (0.5 + 0.38 * angle.cos(), 0.5 + 0.38 * angle.sin())
+            });
+            pen.polyline(&bow.collect::<Vec<_>>());
+            pen.polyline(&[(0.38, 0.12), (0.62, 0.14), (0.5, 0.36)]);
+        }
+        Tool::Size => {
+            pen.outline(&[(0.1, 0.9), (0.1, 0.5), (0.5, 0.5), (0.5, 0.9)]);
+            pen.polyline(&[(0.5, 0.5), (0.92, 0.08)]);
+            pen.polyline(&[(0.6, 0.08), (0.92, 0.08), (0.92, 0.4)]);
+        }
+    }
 }
 
 /// Two bars: the simulation runs and can be paused.

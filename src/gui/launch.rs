@@ -8,8 +8,9 @@ use std::time::{Duration, Instant};
 
 use egui::{Context, ViewportCommand};
 
-use super::app::{App, Parts, TIGHT, Tab};
+use super::app::{App, Parts, TIGHT};
 use super::dialogs::NativeFileDialogs;
+use super::dock::Panel;
 use super::error::GuiError;
 use crate::editor::{Action, COMMANDS, Command, Outcome, Storage, ViewCommand};
 use crate::record::ThreadRunner;
@@ -138,7 +139,7 @@ enum Step {
     Select(String),
     Dt(String),
     Method(Method),
-    Tab(Tab),
+    Panel(Panel),
     Event(usize),
     /// Runs a study and waits for it.
     Study,
@@ -202,9 +203,9 @@ fn step(text: &str) -> Option<Step> {
             "dt" => Some(Step::Dt(value.to_owned())),
             "method" => Some(Step::Method(Method::from_name(value)?)),
             "event" => Some(Step::Event(value.parse().ok()?)),
-            "tab" if value == "problems" => Some(Step::Tab(Tab::Problems)),
-            "tab" if value == "accuracy" => Some(Step::Tab(Tab::Accuracy)),
-            "tab" if value == "events" => Some(Step::Tab(Tab::Events)),
+            "tab" if value == "problems" => Some(Step::Panel(Panel::Problems)),
+            "tab" if value == "accuracy" => Some(Step::Panel(Panel::Accuracy)),
+            "tab" if value == "events" => Some(Step::Panel(Panel::Events)),
             "overlay" => {
                 let index = OVERLAYS.iter().position(|overlay| overlay.id == value)?;
                 Some(Step::Command(ViewCommand::ToggleOverlay(index).into()))
@@ -287,8 +288,8 @@ impl App {
             Step::Command(command) => self.execute(ctx, *command),
             Step::Dt(text) => self.perform(Action::SetDt(text.clone())),
             Step::Method(method) => self.perform(Action::SetMethod(*method)),
-            Step::Tab(tab) => {
-                self.show_tab(*tab);
+            Step::Panel(panel) => {
+                self.show_panel(*panel);
                 Outcome::Done
             }
             Step::Select(name) => {
@@ -381,7 +382,7 @@ mod tests {
     fn steps_are_read_and_unknown_ones_refused() {
         assert_eq!(step("next_event"), Some(Step::Command(SessionCommand::NextEvent.into())));
         assert_eq!(step("select:5853"), Some(Step::Select("5853".into())));
-        assert_eq!(step("tab:problems"), Some(Step::Tab(Tab::Problems)));
+        assert_eq!(step("tab:problems"), Some(Step::Panel(Panel::Problems)));
         assert_eq!(step("fly"), None);
         assert_eq!(step("overlay:nothing"), None);
         assert_eq!(counted_step("next_event*3"), Ok((Step::Command(SessionCommand::NextEvent.into()), 3)));

@@ -35,6 +35,18 @@ impl Problems {
         self.list.len() - self.errors()
     }
 
+    /// What the panel is called, with how much is wrong.
+    pub fn title(&self) -> String {
+        let counted = |count: usize, what: &str| match count {
+            0 => None,
+            1 => Some(format!("1 {what}")),
+            _ => Some(format!("{count} {what}s")),
+        };
+        let counts = [counted(self.errors(), "error"), counted(self.warnings(), "warning")];
+        let counts: Vec<String> = counts.into_iter().flatten().collect();
+        if counts.is_empty() { "Problems".to_owned() } else { format!("Problems ({})", counts.join(", ")) }
+    }
+
     pub fn show(&mut self, ui: &mut Ui, context: &AppContext<'_>) {
         if self.list.is_empty() {
             ui.add_space(8.0);
@@ -47,6 +59,7 @@ impl Problems {
             .id_salt("problems")
             .striped(true)
             .sense(Sense::click())
+            .min_scrolled_height(0.0)
             .column(Column::exact(18.0))
             .column(Column::initial(64.0).resizable(true))
             .column(Column::initial(110.0).resizable(true).clip(true))

@@ -45,6 +45,9 @@ const SPEEDS: [(f64, &str); 9] = [
     (64.0, "64 ×"),
 ];
 
+/// Room in which everything has its place, points.
+const WIDE: f32 = 1070.0;
+
 /// Keeps what is being typed into Δt.
 #[derive(Default)]
 pub struct Transport {
@@ -54,6 +57,8 @@ pub struct Transport {
 
 impl Transport {
     pub fn show(&mut self, ui: &mut Ui, context: &AppContext<'_>, layout: Layout, snapping: bool) {
+        // the scene's time speed is in the inspector too
+        let wide = ui.available_width() > WIDE;
         ui.horizontal_centered(|ui| {
             ui.spacing_mut().item_spacing.x = 3.0;
             for command in TRANSPORT {
@@ -65,8 +70,10 @@ impl Transport {
             method_menu(ui, context);
             ui.add_space(6.0);
             speed_menu(ui, context);
-            ui.add_space(6.0);
-            time_speed(ui, context);
+            if wide {
+                ui.add_space(6.0);
+                time_speed(ui, context);
+            }
             ui.add_space(8.0);
             state(ui, context);
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {

@@ -17,6 +17,7 @@ mod save;
 mod source;
 mod tree;
 mod types;
+mod viewpoint;
 mod write;
 
 use diagnostic::shown;
@@ -30,3 +31,4 @@ pub use save::{
     FileId, FileStamp, canonical_target, check_writable, same_file, write_atomically, write_private,
 };
 pub use types::{Body, Force, ForceKind, Map, Motion, NodeKey, Scene, Shape, rotation_matrix};
+pub use viewpoint::Viewpoint;

@@ -8,6 +8,7 @@ use polyscene::editor::{
     SAMPLES, SCENE_FIELDS, SessionCommand, Shared, parse_angle, parse_number, shared,
 };
 use polyscene::scene::{BodyChange, Diagnostic, Document, Edit, ForceChange, Severity, Shape};
+use polyscene::view::Pull;
 
 use super::editor_support::{Bench, BodyNumbers, SCENE};
 
@@ -120,7 +121,7 @@ fn a_drag_moves_the_selection_but_not_what_is_locked() {
     bench.run(SessionCommand::SelectAll);
     let drag = Drag::of_selection(&bench.session, Gesture(1)).unwrap();
     for step in 1..=5 {
-        bench.act(drag.move_by(DVec3::new(0.5 * f64::from(step), 0.0, 0.0)));
+        bench.act(drag.pull(&Pull::Move(DVec3::new(0.5 * f64::from(step), 0.0, 0.0)), DVec3::ZERO));
     }
     bench.act(Action::EndGesture);
     assert_eq!(bench.body(7).position, DVec3::new(5.5, 3.0, 3.0));

@@ -3,8 +3,9 @@
 use std::time::Duration;
 
 use glam::DVec3;
-use polyscene::editor::{Action, Addition, Outcome, SessionCommand};
-use polyscene::scene::{BodyChange, Edit};
+use polyscene::editor::{Action, Addition, Drag, Gesture, Outcome, SessionCommand};
+use polyscene::scene::{Body, BodyChange, Edit, Motion, Shape};
+use polyscene::view::Pull;
 
 use super::editor_support::{Bench, BodyNumbers, SCENE};
 
@@ -195,4 +196,33 @@ fn camera_and_playback_are_no_edits() {
     bench.wait(Duration::from_secs(1));
     assert_eq!(bench.session.undo_label(), None);
     assert!(!bench.session.is_dirty());
+}
+
+#[test]
+fn a_long_gesture_of_many_bodies_is_one_point_and_one_batch() {
+    const BODIES: i64 = 1000;
+    let mut bench = Bench::open();
+    let ball = |id: i64| {
+        let place = DVec3::new(id as f64 * 0.02, 1.0, 7.0);
+        let body = Body::new(1000 + id, place, Motion::Static, Shape::Sphere { radius: 0.005 });
+        Edit::AddBody(Box::new(body))
+    };
+    bench.edit(Edit::All((0..BODIES).map(ball).collect()));
+    assert_eq!(bench.session.selection().len(), BODIES as usize, "what was added is selected");
+    bench.step();
+    let before = bench.bytes();
+    let drag = Drag::of_selection(&bench.session, Gesture(1)).unwrap();
+    for step in 1..=100 {
+        let offset = DVec3::new(0.0, 0.01 * f64::from(step), 0.0);
+        bench.act(drag.pull(&Pull::Move(offset), DVec3::ZERO));
+    }
+    assert_eq!(bench.sent(), [""; 0], "the simulation does not hear of every step");
+    bench.act(Action::EndGesture);
+    let sent = bench.sent();
+    assert_eq!(sent.len(), 1, "{} commands", sent.len());
+    assert_eq!(sent[0].matches("ChangeStatic").count(), BODIES as usize);
+    assert_eq!(bench.body(1500).position.y, 2.0);
+    bench.run(SessionCommand::Undo);
+    assert_eq!(bench.bytes(), before, "one undo takes all of it back");
+    assert_eq!(bench.sent().len(), 1);
 }

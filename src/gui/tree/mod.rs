@@ -8,7 +8,6 @@ use rustc_hash::FxHashMap;
 use super::colors::tones;
 use super::context::{AppContext, Message, Shown};
 use super::theme::ROW_HEIGHT;
-use super::widgets::panel_heading;
 use crate::editor::{Action, SessionCommand};
 use crate::record::Frame;
 use crate::scene::{BodyChange, Edit, ForceChange, NodeKey};
@@ -79,7 +78,6 @@ impl Tree {
     }
 
     pub fn show(&mut self, ui: &mut Ui, context: &AppContext<'_>) {
-        panel_heading(ui, "Scene", |_| {});
         self.filter_field(ui);
         let Some(shown) = context.shown else {
             ui.label(RichText::new("  The file has errors; see Problems.").color(tones(ui).weak));

@@ -14,7 +14,7 @@ mod work;
 
 use glam::DVec3;
 
-use super::{Body, Document, Force, ForceKind, NodeKey, Shape, SimParams};
+use super::{Body, Document, Force, ForceKind, NodeKey, Shape, SimParams, Viewpoint};
 
 pub(super) use style::Style;
 pub use touched::Touched;
@@ -26,6 +26,8 @@ pub enum Edit {
     MapTiles([u32; 3]),
     TimeSpeed(f64),
     Params(SimParams),
+    /// All saved viewpoints.
+    Viewpoints(Vec<Viewpoint>),
     Body {
         key: NodeKey,
         change: BodyChange,

@@ -12,16 +12,19 @@ pub struct Touched {
     pub keys: BTreeSet<NodeKey>,
     /// Map, time speed or solver.
     pub settings: bool,
+    /// What is no part of the scene: saved viewpoints.
+    pub cosmetics: bool,
 }
 
 impl Touched {
     pub fn is_empty(&self) -> bool {
-        self.keys.is_empty() && !self.settings
+        self.keys.is_empty() && !self.settings && !self.cosmetics
     }
 
     pub fn extend(&mut self, other: &Self) {
         self.keys.extend(&other.keys);
         self.settings |= other.settings;
+        self.cosmetics |= other.cosmetics;
     }
 
     /// What of this differs between two scenes.
@@ -32,7 +35,7 @@ impl Touched {
             && (before.map != after.map
                 || before.params != after.params
                 || before.time_speed != after.time_speed);
-        Self { keys, settings }
+        Self { keys, settings, cosmetics: self.cosmetics }
     }
 
     /// The touched bodies and forces of a scene.

@@ -3,15 +3,15 @@
 use std::sync::{Arc, OnceLock};
 
 use super::patch::{self, Changes};
-use super::pen::{Changed, Pen, Spot, check, check_vector};
+use super::pen::{Changed, Pen, Spot, check, check_text, check_vector};
 use super::style::lead_at;
-use super::{Edit, EditError, Edited, Touched, body, force, settings};
+use super::{Edit, EditError, Edited, Touched, body, cosmetic, force, settings};
 use crate::scene::document::Content;
 use crate::scene::ids::Ids;
 use crate::scene::locate::{self, Index, List};
 use crate::scene::rules::{self, Range};
 use crate::scene::tree::{Child, Children, Element, View, tag};
-use crate::scene::{Document, NodeKey, number};
+use crate::scene::{Document, NodeKey, number, viewpoint};
 
 /// Children of the root and of `Simulation`, in the order in which they are written.
 const SECTIONS: [&str; 6] = ["Map", "Simulation", "Primitives", "TimeSpeed", "Forces", "Solver"];
@@ -52,6 +52,7 @@ impl<'d> Work<'d> {
     pub fn apply(&mut self, edit: &Edit) -> Result<(), EditError> {
         self.touched.settings |=
             matches!(edit, Edit::MapSize(_) | Edit::MapTiles(_) | Edit::TimeSpeed(_) | Edit::Params(_));
+        self.touched.cosmetics |= matches!(edit, Edit::Viewpoints(_));
         match edit {
             Edit::MapSize(size) => {
                 check_vector("the map's size", *size, Range::Positive)?;
@@ -73,6 +74,13 @@ impl<'d> Work<'d> {
                 settings::check_params(params)?;
                 self.section(&["Simulation"], |pen, el, lead| {
                     settings::set_params(pen, el, lead, &SECTIONS, params)
+                })
+            }
+            Edit::Viewpoints(viewpoints) => {
+                viewpoints.iter().try_for_each(|viewpoint| check_text(&viewpoint.name))?;
+                let text = viewpoint::write(viewpoints);
+                self.section(&[], |pen, root, lead| {
+                    cosmetic::set(pen, root, lead, viewpoint::ATTRIBUTE, text.as_deref())
                 })
             }
             Edit::Body { key, change } => self.items_changed(List::Bodies, &[(*key, change)], body::change),
