@@ -87,12 +87,12 @@ impl CheckArgs {
 
 /// The scene with all put right that can be; tells what was.
 fn fixed(file: &Path, document: &Document) -> Result<Document, CliError> {
-    let (fixed, done) = design::mend_all(document)
+    let fixed = design::mend_all(document)
         .map_err(|error| CliError::Usage(format!("cannot fix {}: {error}", input::display_name(file))))?;
-    for what in done {
+    for what in &fixed.done {
         super::say(format!("{}: {what}", input::display_name(file)));
     }
-    Ok(fixed)
+    Ok(fixed.document)
 }
 
 /// Writes the scene in one go. A file that nothing was changed in, or that another program wrote meanwhile, stays.

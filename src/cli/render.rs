@@ -210,7 +210,7 @@ fn frame_after(
 ) -> Result<(Arc<Frame>, Option<Exceeded>), Fault> {
     let mut runner = InlineRunner::limited(args.limits.limits());
     runner.send(RunCommand::Method(args.method));
-    runner.send(RunCommand::Load(Box::new(scene.clone())));
+    runner.send(RunCommand::Load(Arc::new(scene.clone())));
     for step in steps {
         if runner.exceeded().is_none() {
             runner.send(step.clone());

@@ -11,7 +11,7 @@ use super::near::for_each_near;
 use super::plan::Plan;
 use super::tool::{Tool, ToolGroup};
 use super::trouble::troubles;
-use crate::scene::{Body, BodyChange, Document, Edit, EditError, ForceChange, NodeKey, Scene};
+use crate::scene::{Body, BodyChange, Document, Edit, EditError, ForceChange, NodeKey, Scene, Touched};
 
 /// Rounds in which all pairs are pushed apart: chains of balls take about as many as they are long.
 const ROUNDS: usize = 400;
@@ -68,9 +68,17 @@ pub fn mend(scene: &Scene, mend: Mend) -> Option<Plan> {
     }
 }
 
-/// A document with all put right that can be, and what was done, one line each.
-pub fn mend_all(document: &Document) -> Result<(Document, Vec<String>), EditError> {
-    let (mut document, mut done) = (document.clone(), Vec::new());
+/// A document with all put right that can be.
+pub struct Mended {
+    pub document: Document,
+    pub touched: Touched,
+    /// What was done, one line each.
+    pub done: Vec<String>,
+}
+
+/// Puts right all that can be.
+pub fn mend_all(document: &Document) -> Result<Mended, EditError> {
+    let mut mended = Mended { document: document.clone(), touched: Touched::default(), done: Vec::new() };
     let steps = [
         (Mend::MakeIdsUnique, "gave new UserIDs to what repeated one"),
         (Mend::PushAllApart, "pushed overlapping bodies apart"),
@@ -78,17 +86,19 @@ pub fn mend_all(document: &Document) -> Result<(Document, Vec<String>), EditErro
         (Mend::FitTiles, "fitted the tiles to the balls"),
     ];
     for (step, what) in steps {
-        let Some(scene) = document.scene() else { break };
+        let Some(scene) = mended.document.scene() else { break };
         let is_wanted = match step {
             Mend::MakeIdsUnique => has_repeated_ids(scene),
             _ => troubles(scene).iter().any(|trouble| solves(step, trouble.mend)),
         };
         let Some(plan) = is_wanted.then(|| mend(scene, step)).flatten() else { continue };
         let remark = plan.remark.map_or(String::new(), |remark| format!(" ({remark})"));
-        document = document.apply(&Edit::All(plan.edits))?.document;
-        done.push(format!("{what}{remark}"));
+        let edited = mended.document.apply(&Edit::All(plan.edits))?;
+        mended.document = edited.document;
+        mended.touched.extend(&edited.touched);
+        mended.done.push(format!("{what}{remark}"));
     }
-    Ok((document, done))
+    Ok(mended)
 }
 
 fn solves(step: Mend, wanted: Option<Mend>) -> bool {

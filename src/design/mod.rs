@@ -29,7 +29,7 @@ pub use formula::{Formula, Instance};
 pub use gap::{Gap, gap};
 pub use group::{group, rename_group, ungroup};
 pub use measure::Mend;
-pub use mend::{mend, mend_all};
+pub use mend::{Mended, mend, mend_all};
 pub use moving::moved;
 pub use place::round as round_size;
 pub use plan::{Eye, Given, Plan};

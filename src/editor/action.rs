@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::{Answer, Command, Gesture, Place};
+use super::{Answer, Gesture, Place, SessionCommand};
 use crate::design::{Mend, Plan};
 use crate::record::EventRow;
 use crate::scene::{Edit, NodeKey};
@@ -11,7 +11,7 @@ use crate::sim::Method;
 
 #[derive(Clone, Debug)]
 pub enum Action {
-    Command(Command),
+    Command(SessionCommand),
     /// Edits of the same gesture in a row are one undo point and reach the simulation when it ends.
     Edit {
         edit: Edit,

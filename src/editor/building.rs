@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::copies::LastCopies;
 use super::edits::locked_keys;
 use super::{Notice, Outcome, Session};
-use crate::design::{self, Eye, Given, Mend, Plan, TOOLS};
+use crate::design::{self, Eye, Given, Mend, Mended, Plan, TOOLS};
 use crate::scene::Edit;
 
 impl Session {
@@ -47,7 +47,7 @@ impl Session {
         if let Some(keys) = select {
             self.selection.set(&keys);
         }
-        self.notices.extend(remark.map(Notice::info));
+        self.talk.notices.extend(remark.map(Notice::info));
         Outcome::Done
     }
 
@@ -63,16 +63,16 @@ impl Session {
     /// Puts right all that can be, as one undo step, and tells what was done.
     pub(super) fn mend_all(&mut self) -> Outcome {
         self.settle();
-        let (document, done) = match design::mend_all(self.document()) {
+        let Mended { document, touched, done } = match design::mend_all(self.document()) {
             Ok(mended) => mended,
             Err(reason) => return Outcome::Refused(reason.to_string()),
         };
         if done.is_empty() {
             return Outcome::Refused("There is nothing that could be put right".to_owned());
         }
-        self.history.push(document, "Put all right".to_owned(), None);
-        self.document_changed();
-        self.notices.push(Notice::info(format!("This {}", done.join(", "))));
+        self.doc.history.push(document, "Put all right".to_owned(), &touched, None);
+        self.document_changed(&touched);
+        self.talk.notices.push(Notice::info(format!("This {}", done.join(", "))));
         Outcome::Done
     }
 
@@ -80,13 +80,13 @@ impl Session {
     pub(super) fn duplicate(&mut self) -> Outcome {
         let Some(scene) = self.scene() else { return Outcome::no_scene() };
         let keys = self.selection.keys().to_vec();
-        let step = self.last_copies.as_ref().and_then(|last| last.step(scene, &keys));
+        let step = self.doc.last_copies.as_ref().and_then(|last| last.step(scene, &keys));
         let original = keys.iter().copied().find(|key| scene.bodies.iter().any(|body| body.key == *key));
         let plan = design::duplicate(scene, &keys, step);
         let outcome = self.apply_plan(plan);
         if let (Outcome::Done, Some(original)) = (&outcome, original) {
             let copies = self.selection.keys().to_vec();
-            self.last_copies = Some(LastCopies { original, copies });
+            self.doc.last_copies = Some(LastCopies { original, copies });
         }
         outcome
     }

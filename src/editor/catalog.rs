@@ -1,59 +1,59 @@
 //! The one table of commands. It feeds menus, tool bar, shortcuts, palette, help sheet and tests.
 
 use super::Session;
-use super::command::{Command, Key, Menu, Shortcut};
+use super::command::{Addition, Command, Key, Menu, SessionCommand, Shortcut, ViewCommand, WindowCommand};
 use super::command_info::CommandInfo;
 use crate::scene::NumberStyle;
-use crate::view::AxisView;
+use crate::view::{AxisView, Tool};
 
 /// All commands, in the order in which menus list them. Samples, recent files and overlays have tables
-/// of their own and reach the menus through [`Command::OpenSample`] and the like.
+/// of their own and reach the menus through [`SessionCommand::OpenSample`] and the like.
 pub const COMMANDS: &[CommandInfo] = &[
     row(Menu::File, 0, "new", "New", "Starts an empty scene that writes numbers as 9.8")
-        .runs(Command::New(NumberStyle::Point))
+        .session(SessionCommand::New(NumberStyle::Point))
         .icon('🗋')
         .keys(&[Shortcut::ctrl('N')]),
     row(Menu::File, 0, "new_comma", "New with decimal comma", "Starts an empty scene for the old tools: 9,8")
-        .runs(Command::New(NumberStyle::Comma)),
+        .session(SessionCommand::New(NumberStyle::Comma)),
     row(Menu::File, 0, "open", "Open…", "Opens a scene file")
-        .runs(Command::Open)
+        .session(SessionCommand::Open)
         .icon('📂')
         .keys(&[Shortcut::ctrl('O')]),
     row(Menu::File, 0, "reload", "Reload", "Reads the file again from the disk")
-        .runs(Command::Reload)
+        .session(SessionCommand::Reload)
         .when(Session::can_reload),
     row(Menu::File, 1, "save", "Save", "Writes the scene to its file; what you did not edit keeps its bytes")
-        .runs(Command::Save)
+        .session(SessionCommand::Save)
         .icon('💾')
         .keys(&[Shortcut::ctrl('S')])
         .when(Session::can_save),
     row(Menu::File, 1, "save_as", "Save as…", "Writes the scene to another file")
-        .runs(Command::SaveAs)
+        .session(SessionCommand::SaveAs)
         .keys(&[Shortcut::ctrl_shift('S')]),
     row(Menu::File, 2, "quit", "Quit", "Leaves the application; asks first when something is not saved")
-        .runs(Command::Quit)
+        .session(SessionCommand::Quit)
         .keys(&[Shortcut::ctrl('Q')]),
     //
     row(Menu::Edit, 0, "undo", "Undo", "Takes back the last edit of the scene")
-        .runs(Command::Undo)
+        .session(SessionCommand::Undo)
         .icon('↩')
         .keys(&[Shortcut::ctrl('Z')])
         .when(Session::can_undo),
     row(Menu::Edit, 0, "redo", "Redo", "Repeats the edit that was taken back")
-        .runs(Command::Redo)
+        .session(SessionCommand::Redo)
         .icon('↪')
         .keys(&[Shortcut::ctrl('Y'), Shortcut::ctrl_shift('Z')])
         .when(Session::can_redo),
     row(Menu::Edit, 1, "cut", "Cut", "Copies the selection as XML and deletes it")
-        .runs(Command::Cut)
+        .session(SessionCommand::Cut)
         .keys(&[Shortcut::ctrl('X')])
         .when(Session::has_selection),
     row(Menu::Edit, 1, "copy", "Copy", "Copies the selected bodies and forces as XML")
-        .runs(Command::Copy)
+        .session(SessionCommand::Copy)
         .keys(&[Shortcut::ctrl('C')])
         .when(Session::has_selection),
     row(Menu::Edit, 1, "paste", "Paste", "Adds the bodies and forces of a scene on the clipboard")
-        .runs(Command::Paste)
+        .session(SessionCommand::Paste)
         .keys(&[Shortcut::ctrl('V')])
         .when(Session::has_scene),
     row(
@@ -63,7 +63,7 @@ pub const COMMANDS: &[CommandInfo] = &[
         "Paste in place",
         "Adds what is on the clipboard at the very places it was copied from",
     )
-    .runs(Command::PasteInPlace)
+    .session(SessionCommand::PasteInPlace)
     .keys(&[Shortcut::ctrl_shift('V')])
     .when(Session::has_scene),
     row(
@@ -73,36 +73,36 @@ pub const COMMANDS: &[CommandInfo] = &[
         "Duplicate",
         "Adds a copy of the selection at a free place beside it; repeated, by the same step",
     )
-    .runs(Command::Duplicate)
+    .session(SessionCommand::Duplicate)
     .icon('⎘')
     .keys(&[Shortcut::ctrl('D')])
     .when(Session::has_selection),
     row(Menu::Edit, 1, "delete", "Delete", "Removes the selected bodies and forces")
-        .runs(Command::Delete)
+        .session(SessionCommand::Delete)
         .icon('🗑')
         .keys(&[Shortcut::plain(Key::Delete)])
         .when(Session::has_selection),
     row(Menu::Edit, 2, "select_all", "Select all", "Selects all visible bodies and forces")
-        .runs(Command::SelectAll)
+        .session(SessionCommand::SelectAll)
         .keys(&[Shortcut::ctrl('A')])
         .when(Session::has_scene),
     row(Menu::Edit, 2, "select_none", "Select none", "Clears the selection")
-        .runs(Command::SelectNone)
+        .session(SessionCommand::SelectNone)
         .keys(&[Shortcut::plain(Key::Escape)]),
     row(Menu::Edit, 2, "find", "Find in the scene tree", "Shows only what has the typed letters in its name")
-        .runs(Command::Find)
+        .window(WindowCommand::Find)
         .keys(&[Shortcut::ctrl('F')])
         .when(Session::has_scene),
     row(Menu::Edit, 3, "rename", "Rename", "Gives a name to what was selected last")
-        .runs(Command::Rename)
+        .window(WindowCommand::Rename)
         .keys(&[Shortcut::plain(Key::Function(2))])
         .when(Session::has_selection),
     row(Menu::Edit, 3, "group", "Group", "Gathers the selection in a group of the scene tree")
-        .runs(Command::Group)
+        .session(SessionCommand::Group)
         .keys(&[Shortcut::ctrl('G')])
         .when(Session::has_selection),
     row(Menu::Edit, 3, "ungroup", "Ungroup", "Takes the selection out of its group")
-        .runs(Command::Ungroup)
+        .session(SessionCommand::Ungroup)
         .keys(&[Shortcut::ctrl_shift('G')])
         .when(Session::has_group),
     row(
@@ -112,18 +112,18 @@ pub const COMMANDS: &[CommandInfo] = &[
         "Hide",
         "Keeps the selection out of the views; it still takes part in the simulation",
     )
-    .runs(Command::Hide)
+    .session(SessionCommand::Hide)
     .keys(&[Shortcut::plain(Key::Char('H'))])
     .when(Session::has_selection),
     row(Menu::Edit, 3, "show_all", "Show all", "Shows everything that was hidden")
-        .runs(Command::ShowAll)
+        .session(SessionCommand::ShowAll)
         .keys(&[Shortcut::shift(Key::Char('H'))])
         .when(Session::has_hidden),
     row(Menu::Edit, 3, "lock", "Lock", "Protects the selection from being moved or deleted")
-        .runs(Command::Lock)
+        .session(SessionCommand::Lock)
         .when(Session::has_selection),
     row(Menu::Edit, 3, "unlock_all", "Unlock all", "Lets everything be moved and deleted again")
-        .runs(Command::UnlockAll)
+        .session(SessionCommand::UnlockAll)
         .when(Session::has_locked),
     row(
         Menu::Edit,
@@ -132,7 +132,7 @@ pub const COMMANDS: &[CommandInfo] = &[
         "Make IDs unique",
         "Gives a new UserID to everything that repeats one",
     )
-    .runs(Command::MakeIdsUnique)
+    .session(SessionCommand::MakeIdsUnique)
     .when(Session::has_repeated_ids),
     row(
         Menu::Edit,
@@ -141,7 +141,7 @@ pub const COMMANDS: &[CommandInfo] = &[
         "Take current state as start",
         "Writes the positions and velocities of this moment into the scene, which then starts from them",
     )
-    .runs(Command::TakeStateAsStart)
+    .session(SessionCommand::TakeStateAsStart)
     .when(Session::can_take_state),
     //
     row(
@@ -151,15 +151,15 @@ pub const COMMANDS: &[CommandInfo] = &[
         "Dynamic sphere",
         "Adds a sphere that forces and collisions move",
     )
-    .runs(Command::AddSphereDynamic)
+    .session(SessionCommand::Add(Addition::SphereDynamic))
     .icon('●')
     .when(Session::has_scene),
     row(Menu::Add, 0, "add_sphere_static", "Static sphere", "Adds a sphere that never moves")
-        .runs(Command::AddSphereStatic)
+        .session(SessionCommand::Add(Addition::SphereStatic))
         .icon('○')
         .when(Session::has_scene),
     row(Menu::Add, 0, "add_plane", "Static plane", "Adds a bounded plane that never moves")
-        .runs(Command::AddPlane)
+        .session(SessionCommand::Add(Addition::Plane))
         .icon('▱')
         .when(Session::has_scene),
     row(
@@ -169,7 +169,7 @@ pub const COMMANDS: &[CommandInfo] = &[
         "Uniform gravity",
         "Adds the same acceleration for all dynamic bodies",
     )
-    .runs(Command::AddGravityPlane)
+    .session(SessionCommand::Add(Addition::GravityPlane))
     .icon('⬇')
     .when(Session::has_scene),
     row(
@@ -179,26 +179,26 @@ pub const COMMANDS: &[CommandInfo] = &[
         "Point gravity",
         "Adds a point that attracts, or repels when negative",
     )
-    .runs(Command::AddGravityPoint)
+    .session(SessionCommand::Add(Addition::GravityPoint))
     .icon('◎')
     .when(Session::has_scene),
     row(Menu::Add, 1, "add_drag", "Air drag", "Adds resistance against motion; makes the file Version 1.1")
-        .runs(Command::AddDrag)
+        .session(SessionCommand::Add(Addition::Drag))
         .icon('💨')
         .when(Session::has_scene),
     //
     row(Menu::Simulation, 0, "reset", "Reset", "Goes back to the start of the scene as it is edited now")
-        .runs(Command::Reset)
+        .session(SessionCommand::Reset)
         .icon('⏮')
         .keys(&[Shortcut::plain(Key::Char('R'))])
         .when(Session::can_reset),
     row(Menu::Simulation, 0, "event_back", "Event back", "Goes back to the previous event")
-        .runs(Command::EventBack)
+        .session(SessionCommand::EventBack)
         .icon('⏪')
         .keys(&[Shortcut::plain(Key::Char('B'))])
         .when(Session::can_step_back),
     row(Menu::Simulation, 0, "step_back", "Step back", "Goes back by one Δt")
-        .runs(Command::StepBack)
+        .session(SessionCommand::StepBack)
         .icon('⬅')
         .keys(&[Shortcut::plain(Key::Char(','))])
         .when(Session::can_step_back),
@@ -209,17 +209,17 @@ pub const COMMANDS: &[CommandInfo] = &[
         "Play or pause",
         "Runs Δt after Δt, or stops after the current event",
     )
-    .runs(Command::PlayPause)
+    .session(SessionCommand::PlayPause)
     .icon('▶')
     .keys(&[Shortcut::plain(Key::Space)])
     .when(Session::can_run),
     row(Menu::Simulation, 0, "step_forward", "Step forward", "Goes on by one Δt")
-        .runs(Command::StepForward)
+        .session(SessionCommand::StepForward)
         .icon('➡')
         .keys(&[Shortcut::plain(Key::Char('.'))])
         .when(Session::can_run),
     row(Menu::Simulation, 0, "next_event", "Next event", "Goes on to the next event, also inside a Δt")
-        .runs(Command::NextEvent)
+        .session(SessionCommand::NextEvent)
         .icon('⏩')
         .keys(&[Shortcut::plain(Key::Char('N'))])
         .when(Session::can_run),
@@ -230,23 +230,23 @@ pub const COMMANDS: &[CommandInfo] = &[
         "Finish this Δt",
         "Goes on to the end of the Δt that an event opened",
     )
-    .runs(Command::FinishStep)
+    .session(SessionCommand::FinishStep)
     .icon('⏭')
     .keys(&[Shortcut::plain(Key::End)])
     .when(Session::can_finish_step),
     row(Menu::Simulation, 1, "step_forward_five", "Five steps forward", "Goes on by five Δt")
-        .runs(Command::StepForwardFive)
+        .session(SessionCommand::StepForwardFive)
         .keys(&[Shortcut::shift(Key::Char('.'))])
         .when(Session::can_run),
     row(Menu::Simulation, 1, "step_back_five", "Five steps back", "Goes back by five Δt")
-        .runs(Command::StepBackFive)
+        .session(SessionCommand::StepBackFive)
         .keys(&[Shortcut::shift(Key::Char(','))])
         .when(Session::can_step_back),
     row(Menu::Simulation, 2, "faster", "Faster", "Doubles the speed of playing")
-        .runs(Command::Faster)
+        .session(SessionCommand::Faster)
         .keys(&[Shortcut::plain(Key::Char('+'))]),
     row(Menu::Simulation, 2, "slower", "Slower", "Halves the speed of playing")
-        .runs(Command::Slower)
+        .session(SessionCommand::Slower)
         .keys(&[Shortcut::plain(Key::Char('-'))]),
     //
     row(
@@ -256,37 +256,49 @@ pub const COMMANDS: &[CommandInfo] = &[
         "Frame selection",
         "Brings the selection into the middle of the view",
     )
-    .runs(Command::FrameSelection)
+    .view(ViewCommand::FrameSelection)
     .icon('⌖')
     .keys(&[Shortcut::plain(Key::Char('F'))])
     .when(Session::has_selection),
-    row(Menu::View, 0, "frame_all", "Frame all", "Brings the whole map into the view")
-        .runs(Command::FrameAll)
+    row(Menu::View, 0, "frame_all", "Frame all", "Brings the map and all bodies into the view")
+        .view(ViewCommand::FrameAll)
         .icon('⛶')
         .keys(&[Shortcut::plain(Key::Char('A'))]),
+    row(Menu::View, 0, "frame_map", "Frame the map", "Brings the box of the map into the view")
+        .view(ViewCommand::FrameMap)
+        .keys(&[Shortcut::shift(Key::Char('A'))]),
+    row(
+        Menu::View,
+        0,
+        "follow",
+        "Follow a body",
+        "The view moves with the body selected last, or no longer with the one it follows",
+    )
+    .view(ViewCommand::Follow)
+    .keys(&[Shortcut::shift(Key::Char('F'))]),
     row(Menu::View, 1, "view_perspective", "Perspective", "Looks at the scene with perspective")
-        .runs(Command::ViewPerspective)
+        .view(ViewCommand::Perspective)
         .keys(&[Shortcut::plain(Key::Char('1'))]),
     row(Menu::View, 1, "view_top", "Top", "Looks down on the scene, against y")
-        .runs(Command::ViewAlong(AxisView::Top))
+        .view(ViewCommand::Along(AxisView::Top))
         .keys(&[Shortcut::plain(Key::Char('2'))]),
     row(Menu::View, 1, "view_front", "Front", "Looks at the scene from the front, against z")
-        .runs(Command::ViewAlong(AxisView::Front))
+        .view(ViewCommand::Along(AxisView::Front))
         .keys(&[Shortcut::plain(Key::Char('3'))]),
     row(Menu::View, 1, "view_right", "Right", "Looks at the scene from the right, against x")
-        .runs(Command::ViewAlong(AxisView::Right))
+        .view(ViewCommand::Along(AxisView::Right))
         .keys(&[Shortcut::plain(Key::Char('4'))]),
     row(Menu::View, 1, "view_bottom", "Bottom", "Looks up at the scene, along y")
-        .runs(Command::ViewAlong(AxisView::Bottom))
+        .view(ViewCommand::Along(AxisView::Bottom))
         .keys(&[Shortcut::shift(Key::Char('2'))]),
     row(Menu::View, 1, "view_back", "Back", "Looks at the scene from behind, along z")
-        .runs(Command::ViewAlong(AxisView::Back))
+        .view(ViewCommand::Along(AxisView::Back))
         .keys(&[Shortcut::shift(Key::Char('3'))]),
     row(Menu::View, 1, "view_left", "Left", "Looks at the scene from the left, along x")
-        .runs(Command::ViewAlong(AxisView::Left))
+        .view(ViewCommand::Along(AxisView::Left))
         .keys(&[Shortcut::shift(Key::Char('4'))]),
     row(Menu::View, 1, "toggle_projection", "Parallel or perspective", "Switches the projection of the view")
-        .runs(Command::ToggleProjection)
+        .view(ViewCommand::ToggleProjection)
         .keys(&[Shortcut::plain(Key::Char('P'))]),
     row(
         Menu::View,
@@ -295,14 +307,14 @@ pub const COMMANDS: &[CommandInfo] = &[
         "One view or four",
         "Fills the middle with the active view, or shows all four",
     )
-    .runs(Command::MaximizeView)
+    .view(ViewCommand::Maximize)
     .icon('⊞')
     .keys(&[Shortcut::plain(Key::Char('M'))]),
-    row(Menu::View, 2, "show_one_view", "One view", "Shows the active view alone").runs(Command::ShowOneView),
+    row(Menu::View, 2, "show_one_view", "One view", "Shows the active view alone").view(ViewCommand::OneView),
     row(Menu::View, 2, "show_two_views", "Two views", "Shows the perspective and one view along an axis")
-        .runs(Command::ShowTwoViews),
+        .view(ViewCommand::TwoViews),
     row(Menu::View, 2, "show_four_views", "Four views", "Shows perspective, top, front and right")
-        .runs(Command::ShowFourViews),
+        .view(ViewCommand::FourViews),
     row(
         Menu::View,
         3,
@@ -310,22 +322,57 @@ pub const COMMANDS: &[CommandInfo] = &[
         "Snap while dragging",
         "Dragged bodies stop at multiples of a round step that suits the magnification",
     )
-    .runs(Command::ToggleSnapping)
+    .view(ViewCommand::ToggleSnapping)
     .keys(&[Shortcut::plain(Key::Char('G'))]),
-    row(Menu::View, 4, "show_accuracy", "Accuracy", "Shows speed against error of every method")
-        .runs(Command::ShowAccuracy),
-    row(Menu::View, 4, "switch_colors", "Dark or light colours", "Switches the colours of the window")
-        .runs(Command::SwitchColors),
+    row(Menu::View, 4, "tool_select", "No handles", "Shows no handles: drags select, or move a body")
+        .view(ViewCommand::Tool(Tool::Select))
+        .keys(&[Shortcut::plain(Key::Char('Q'))]),
+    row(
+        Menu::View,
+        4,
+        "tool_move",
+        "Move handles",
+        "Shows arrows, squares and a disc that move the selection",
+    )
+    .view(ViewCommand::Tool(Tool::Move))
+    .keys(&[Shortcut::plain(Key::Char('W'))]),
+    row(Menu::View, 4, "tool_turn", "Turn handles", "Shows rings that turn the selection, velocities too")
+        .view(ViewCommand::Tool(Tool::Turn))
+        .keys(&[Shortcut::plain(Key::Char('E'))]),
+    row(
+        Menu::View,
+        4,
+        "tool_size",
+        "Size handles",
+        "Shows knobs that change a sphere's radius, a plate's sides or the map",
+    )
+    .view(ViewCommand::Tool(Tool::Size))
+    .keys(&[Shortcut::plain(Key::Char('S'))]),
+    row(
+        Menu::View,
+        4,
+        "toggle_local_axes",
+        "Body or world axes",
+        "Turns the handles along the axes of the body selected last, or of the world",
+    )
+    .view(ViewCommand::ToggleLocalAxes)
+    .keys(&[Shortcut::plain(Key::Char('L'))]),
+    row(Menu::View, 5, "show_accuracy", "Accuracy", "Shows speed against error of every method")
+        .window(WindowCommand::ShowAccuracy),
+    row(Menu::View, 5, "reset_layout", "Reset the panels", "Puts all panels where they are in a new window")
+        .window(WindowCommand::ResetLayout),
+    row(Menu::View, 5, "switch_colors", "Dark or light colours", "Switches the colours of the window")
+        .window(WindowCommand::SwitchColors),
     //
     row(Menu::Help, 0, "help", "Help", "Explains the window in one page")
-        .runs(Command::Help)
+        .window(WindowCommand::Help)
         .icon('❓')
         .keys(&[Shortcut::plain(Key::Function(1))]),
     row(Menu::Help, 0, "shortcuts", "Keys and gestures", "Lists all keys and mouse gestures")
-        .runs(Command::Shortcuts)
+        .window(WindowCommand::Shortcuts)
         .keys(&[Shortcut::plain(Key::Char('?'))]),
     row(Menu::Help, 0, "palette", "Command palette…", "Finds a command by its name")
-        .runs(Command::Palette)
+        .window(WindowCommand::Palette)
         .icon('🔍')
         .keys(&[Shortcut::ctrl('P')]),
     row(
@@ -335,11 +382,12 @@ pub const COMMANDS: &[CommandInfo] = &[
         "About PolyScene",
         "Shows the version, the licence and where to report a fault",
     )
-    .runs(Command::About),
+    .window(WindowCommand::About),
 ];
 
 /// The row of a command; `None` for those that other tables list (samples, recent files, overlays).
-pub fn info(command: Command) -> Option<&'static CommandInfo> {
+pub fn info(command: impl Into<Command>) -> Option<&'static CommandInfo> {
+    let command = command.into();
     COMMANDS.iter().find(|row| row.command == command)
 }
 
@@ -351,7 +399,7 @@ const fn row(
     help: &'static str,
 ) -> CommandInfo {
     CommandInfo {
-        command: Command::About,
+        command: Command::Window(WindowCommand::About),
         id,
         label,
         menu,
@@ -364,8 +412,18 @@ const fn row(
 }
 
 impl CommandInfo {
-    const fn runs(mut self, command: Command) -> Self {
-        self.command = command;
+    const fn session(mut self, command: SessionCommand) -> Self {
+        self.command = Command::Session(command);
+        self
+    }
+
+    const fn view(mut self, command: ViewCommand) -> Self {
+        self.command = Command::View(command);
+        self
+    }
+
+    const fn window(mut self, command: WindowCommand) -> Self {
+        self.command = Command::Window(command);
         self
     }
 

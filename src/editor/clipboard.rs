@@ -9,7 +9,7 @@ impl Session {
     pub(super) fn copy(&mut self) -> Outcome {
         let Some(scene) = self.scene() else { return Outcome::no_scene() };
         match text_of(scene, self.selection.keys()) {
-            Ok(text) => self.requests.push(Request::SetClipboard(text)),
+            Ok(text) => self.talk.requests.push(Request::SetClipboard(text)),
             Err(reason) => return Outcome::Refused(reason),
         }
         Outcome::Done
@@ -18,13 +18,13 @@ impl Session {
     pub(super) fn cut(&mut self) -> Outcome {
         match self.copy() {
             Outcome::Done => self.delete(),
-            refused => refused,
+            refused @ Outcome::Refused(_) => refused,
         }
     }
 
     /// Adds the bodies and forces of a scene given as text: clear of what is there, or in their own places.
     pub(super) fn paste(&mut self, text: &str, in_place: bool) -> Outcome {
-        let in_place = std::mem::take(&mut self.paste_in_place) || in_place;
+        let in_place = std::mem::take(&mut self.talk.paste_in_place) || in_place;
         let pasted = Document::from_bytes(text.as_bytes());
         let (Some(scene), Some(from)) = (self.scene(), pasted.scene()) else {
             return Outcome::Refused("The clipboard holds no scene".to_owned());

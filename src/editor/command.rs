@@ -3,11 +3,19 @@
 use std::fmt;
 
 use crate::scene::NumberStyle;
-use crate::view::AxisView;
+use crate::view::{AxisView, Tool};
 
-/// Every user action that needs no further data.
+/// Every user action that needs no further data, by who carries it out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Command {
+    Session(SessionCommand),
+    View(ViewCommand),
+    Window(WindowCommand),
+}
+
+/// What [`super::Session`] carries out: files, edits, the transport.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SessionCommand {
     New(NumberStyle),
     Open,
     OpenSample(usize),
@@ -31,21 +39,13 @@ pub enum Command {
     /// Gathers the selection in a group of the tree.
     Group,
     Ungroup,
-    /// The n-th of [`crate::design::TOOLS`]: at once, or by a dialog that asks for its sizes.
-    Tool(usize),
     Hide,
     ShowAll,
     Lock,
     UnlockAll,
     MakeIdsUnique,
     TakeStateAsStart,
-
-    AddSphereDynamic,
-    AddSphereStatic,
-    AddPlane,
-    AddGravityPlane,
-    AddGravityPoint,
-    AddDrag,
+    Add(Addition),
 
     Reset,
     PlayPause,
@@ -58,39 +58,85 @@ pub enum Command {
     FinishStep,
     Faster,
     Slower,
+}
 
+/// New bodies and forces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Addition {
+    SphereDynamic,
+    SphereStatic,
+    Plane,
+    GravityPlane,
+    GravityPoint,
+    Drag,
+}
+
+/// What the views carry out, most of it in the active one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ViewCommand {
     FrameSelection,
     FrameAll,
-    ViewPerspective,
-    ViewAlong(AxisView),
-    MaximizeView,
-    ShowOneView,
-    ShowTwoViews,
-    ShowFourViews,
+    FrameMap,
+    /// Keeps what was selected last in its place in the view, or no longer.
+    Follow,
+    Perspective,
+    Along(AxisView),
+    Maximize,
+    OneView,
+    TwoViews,
+    FourViews,
     ToggleProjection,
+    ToggleSnapping,
+    /// What the handles of the selection do.
+    Tool(Tool),
+    /// Handles along the axes of the body, or of the world.
+    ToggleLocalAxes,
+    /// The n-th of [`crate::view::OVERLAYS`], in the active view.
+    ToggleOverlay(usize),
+}
+
+/// What the window carries out: panels, dialogs, colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WindowCommand {
     /// Shows the panel that compares speed and errors of the methods.
     ShowAccuracy,
     SwitchColors,
-    ToggleSnapping,
+    /// All panels where they are in a new window.
+    ResetLayout,
     /// Puts the keyboard into the filter of the scene tree.
     Find,
+    /// The n-th of [`crate::design::TOOLS`]: at once, or by a dialog that asks for its sizes.
+    Tool(usize),
     /// Opens the name of what was selected last for typing.
     Rename,
-    /// The n-th of [`crate::view::OVERLAYS`], in the active view.
-    ToggleOverlay(usize),
-
     Help,
     Shortcuts,
     Palette,
     About,
 }
 
+impl From<SessionCommand> for Command {
+    fn from(command: SessionCommand) -> Self {
+        Self::Session(command)
+    }
+}
+
+impl From<ViewCommand> for Command {
+    fn from(command: ViewCommand) -> Self {
+        Self::View(command)
+    }
+}
+
+impl From<WindowCommand> for Command {
+    fn from(command: WindowCommand) -> Self {
+        Self::Window(command)
+    }
+}
+
 /// What became of a command.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Outcome {
     Done,
-    /// The command is about views or the window: the window carries it out.
-    NotMine,
     /// Why it could not be done; also given as a notice.
     Refused(String),
 }

@@ -1,7 +1,7 @@
 //! What the table of commands holds for each: names, keys, help, and when it can be used.
 
 use super::Session;
-use super::command::{Command, Menu, Shortcut};
+use super::command::{Command, Menu, SessionCommand, Shortcut};
 
 /// One row of [`super::COMMANDS`].
 #[derive(Clone, Copy)]
@@ -27,8 +27,8 @@ impl CommandInfo {
     /// What to write on a button or menu entry now: `Undo` also says what.
     pub fn label_now(&self, session: &Session) -> String {
         let subject = match self.command {
-            Command::Undo => session.undo_label(),
-            Command::Redo => session.redo_label(),
+            Command::Session(SessionCommand::Undo) => session.undo_label(),
+            Command::Session(SessionCommand::Redo) => session.redo_label(),
             _ => None,
         };
         subject.map_or_else(|| self.label.to_owned(), |subject| format!("{}: {subject}", self.label))

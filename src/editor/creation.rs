@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Command, Outcome, Session};
+use super::{Addition, Outcome, Session};
 use crate::design;
 use crate::scene::{Body, Edit, Force, ForceKind, Motion, NodeKey, Scene, Shape};
 
@@ -16,28 +16,27 @@ const EARTH_GRAVITY: f64 = 9.81;
 const PLACES_TRIED: u32 = 400;
 
 impl Session {
-    /// Adds what an `Add…` command names, and selects it.
-    pub(super) fn add(&mut self, command: Command) -> Outcome {
+    /// Adds a body or force, and selects it.
+    pub(super) fn add(&mut self, what: Addition) -> Outcome {
         let Some(scene) = self.scene() else { return Outcome::no_scene() };
         let middle = scene.map.size / 2.0;
-        let edit = match command {
-            Command::AddSphereDynamic => {
+        let edit = match what {
+            Addition::SphereDynamic => {
                 add_body(sphere(scene, Motion::Dynamic { mass: 1.0, velocity: DVec3::ZERO }))
             }
-            Command::AddSphereStatic => add_body(sphere(scene, Motion::Static)),
-            Command::AddPlane => add_body(plane(scene)),
-            Command::AddGravityPlane => add_force(
+            Addition::SphereStatic => add_body(sphere(scene, Motion::Static)),
+            Addition::Plane => add_body(plane(scene)),
+            Addition::GravityPlane => add_force(
                 scene,
                 ForceKind::GravityPlane {
                     position: middle,
                     acceleration: DVec3::new(0.0, -EARTH_GRAVITY, 0.0),
                 },
             ),
-            Command::AddGravityPoint => {
+            Addition::GravityPoint => {
                 add_force(scene, ForceKind::GravityPoint { position: middle, intensity: 8.0 })
             }
-            Command::AddDrag => add_force(scene, ForceKind::Drag { density: AIR_DENSITY }),
-            _ => return Outcome::NotMine,
+            Addition::Drag => add_force(scene, ForceKind::Drag { density: AIR_DENSITY }),
         };
         self.edit(&edit, None)
     }

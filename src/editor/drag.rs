@@ -1,65 +1,127 @@
-//! Moving the selection with the mouse: positions follow the pointer, one undo point for the whole drag.
+//! Changing the selection with the mouse: what a pull at a handle does to what was taken hold of, as one undo
+//! point for the whole drag.
 
 use std::collections::BTreeSet;
 
 use glam::DVec3;
 
 use super::edits::locked_keys;
+use super::orientation::{euler_near, turn};
 use super::{Action, Gesture, Session};
-use crate::scene::{BodyChange, Edit, Force, ForceChange, ForceKind, NodeKey};
+use crate::scene::{
+    Body, BodyChange, Edit, Force, ForceChange, ForceKind, Motion, NodeKey, Shape, rotation_matrix,
+};
+use crate::view::Pull;
 
-/// A drag that began: what moves, and from where.
+/// A drag that began: what changes, and from what.
 #[derive(Clone, Debug)]
 pub struct Drag {
     gesture: Gesture,
-    bodies: Vec<(NodeKey, DVec3)>,
-    forces: Vec<(NodeKey, ForceKind)>,
+    bodies: Vec<Body>,
+    forces: Vec<Force>,
 }
 
 impl Drag {
-    /// Takes hold of the selection without what is locked. `None` when nothing is left to move.
+    /// Takes hold of the selection without what is locked. `None` when nothing is left to drag.
     pub fn of_selection(session: &Session, gesture: Gesture) -> Option<Self> {
         Self::of(session, session.selection().keys(), gesture)
     }
 
-    /// Takes hold of these without what is locked. `None` when nothing is left to move.
+    /// Takes hold of these without what is locked. `None` when nothing is left to drag.
     pub fn of(session: &Session, keys: &[NodeKey], gesture: Gesture) -> Option<Self> {
         let scene = session.scene()?;
         let locked = locked_keys(scene);
         let keys: BTreeSet<NodeKey> = keys.iter().copied().collect();
         let chosen = |key: NodeKey| keys.contains(&key) && !locked.contains(&key);
-        let bodies: Vec<_> = scene.bodies.iter().filter(|body| chosen(body.key)).collect();
-        let forces: Vec<_> = scene.forces.iter().filter(|force| chosen(force.key)).collect();
         let drag = Self {
             gesture,
-            bodies: bodies.into_iter().map(|body| (body.key, body.position)).collect(),
-            forces: forces.into_iter().filter(|force| has_place(force)).map(|f| (f.key, f.kind)).collect(),
+            bodies: scene.bodies.iter().filter(|body| chosen(body.key)).cloned().collect(),
+            forces: scene
+                .forces
+                .iter()
+                .filter(|f| chosen(f.key) && place(&f.kind).is_some())
+                .cloned()
+                .collect(),
         };
         (!drag.bodies.is_empty() || !drag.forces.is_empty()).then_some(drag)
     }
 
-    /// Where the first of what moves began, for snapping and read-out.
-    pub fn origin(&self) -> DVec3 {
-        let of_force = || self.forces.first().and_then(|(_, kind)| place(kind));
-        self.bodies.first().map(|(_, from)| *from).or_else(of_force).unwrap_or_default()
+    /// Takes hold of the map's sides.
+    pub fn of_map(gesture: Gesture) -> Self {
+        Self { gesture, bodies: Vec::new(), forces: Vec::new() }
     }
 
-    /// Moves everything by `offset` metres from where the drag began.
-    pub fn move_by(&self, offset: DVec3) -> Action {
-        let bodies = self
-            .bodies
-            .iter()
-            .map(|(key, from)| Edit::Body { key: *key, change: BodyChange::Position(*from + offset) });
-        let forces = self
-            .forces
-            .iter()
-            .map(|(key, kind)| Edit::Force { key: *key, change: ForceChange::Kind(moved(*kind, offset)) });
-        Action::Edit { edit: Edit::All(bodies.chain(forces).collect()), gesture: Some(self.gesture) }
+    /// The bodies as they were.
+    pub fn bodies(&self) -> &[Body] {
+        &self.bodies
+    }
+
+    /// The forces with a place, as they were.
+    pub fn forces(&self) -> &[Force] {
+        &self.forces
+    }
+
+    /// Where everything began.
+    pub fn places(&self) -> impl Iterator<Item = DVec3> {
+        let bodies = self.bodies.iter().map(|body| body.position);
+        bodies.chain(self.forces.iter().filter_map(|force| place(&force.kind)))
+    }
+
+    /// Where the first of what moves began, for snapping and read-out.
+    pub fn origin(&self) -> DVec3 {
+        self.places().next().unwrap_or_default()
+    }
+
+    /// Everything changed as a pull says, from where the drag began; `pivot` is what is turned about.
+    pub fn pull(&self, pull: &Pull, pivot: DVec3) -> Action {
+        let mut edits = Vec::with_capacity(2 * self.bodies.len() + self.forces.len() + 1);
+        for body in &self.bodies {
+            let change = |change| Edit::Body { key: body.key, change };
+            edits.extend(body_changes(body, pull, pivot).into_iter().map(change));
+        }
+        for force in &self.forces {
+            let kind = changed(force.kind, pull, pivot);
+            edits.push(Edit::Force { key: force.key, change: ForceChange::Kind(kind) });
+        }
+        if let Pull::Map(size) = pull {
+            edits.push(Edit::MapSize(*size));
+        }
+        Action::Edit { edit: Edit::All(edits), gesture: Some(self.gesture) }
     }
 }
 
-fn has_place(force: &Force) -> bool {
-    place(&force.kind).is_some()
+fn body_changes(body: &Body, pull: &Pull, pivot: DVec3) -> Vec<BodyChange> {
+    match pull {
+        Pull::Move(offset) => vec![BodyChange::Position(body.position + *offset)],
+        Pull::Turn { axis, angle } => turned(body, *axis, *angle, pivot),
+        Pull::Radius(radius) => vec![BodyChange::Shape(Shape::Sphere { radius: *radius })],
+        Pull::Sides { half: [half_x, half_y], shift } => {
+            let shape = Shape::Plane { half_x: *half_x, half_y: *half_y };
+            vec![BodyChange::Shape(shape), BodyChange::Position(body.position + *shift)]
+        }
+        Pull::Vector(velocity) if body.is_dynamic() => vec![BodyChange::Velocity(*velocity)],
+        Pull::Vector(_) | Pull::Map(_) => Vec::new(),
+    }
+}
+
+/// A body turned about a pivot, and its velocity with it. What stays is not written; a ball looks the same
+/// from all sides.
+fn turned(body: &Body, axis: DVec3, angle: f64, pivot: DVec3) -> Vec<BodyChange> {
+    let turn = turn(axis, angle);
+    let mut changes = Vec::new();
+    if body.position != pivot {
+        changes.push(BodyChange::Position(pivot + turn * (body.position - pivot)));
+    }
+    if !matches!(body.shape, Shape::Sphere { .. }) {
+        let rotation = euler_near(turn * rotation_matrix(body.rotation), body.rotation);
+        changes.push(BodyChange::Rotation(rotation));
+    }
+    if let Motion::Dynamic { velocity, .. } = body.motion
+        && velocity != DVec3::ZERO
+    {
+        changes.push(BodyChange::Velocity(turn * velocity));
+    }
+    changes
 }
 
 fn place(kind: &ForceKind) -> Option<DVec3> {
@@ -71,12 +133,21 @@ fn place(kind: &ForceKind) -> Option<DVec3> {
     }
 }
 
-fn moved(mut kind: ForceKind, offset: DVec3) -> ForceKind {
-    match &mut kind {
-        ForceKind::GravityPoint { position, .. } | ForceKind::GravityPlane { position, .. } => {
-            *position += offset;
+fn changed(mut kind: ForceKind, pull: &Pull, pivot: DVec3) -> ForceKind {
+    match (&mut kind, pull) {
+        (
+            ForceKind::GravityPoint { position, .. } | ForceKind::GravityPlane { position, .. },
+            Pull::Move(offset),
+        ) => *position += *offset,
+        (ForceKind::GravityPoint { position, .. }, Pull::Turn { axis, angle }) => {
+            *position = pivot + turn(*axis, *angle) * (*position - pivot);
         }
-        ForceKind::Drag { .. } => {}
+        (ForceKind::GravityPlane { position, acceleration }, Pull::Turn { axis, angle }) => {
+            *position = pivot + turn(*axis, *angle) * (*position - pivot);
+            *acceleration = turn(*axis, *angle) * *acceleration;
+        }
+        (ForceKind::GravityPlane { acceleration, .. }, Pull::Vector(value)) => *acceleration = *value,
+        _ => {}
     }
     kind
 }

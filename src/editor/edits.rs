@@ -27,35 +27,40 @@ impl Session {
             Ok(edited) => edited,
             Err(err) => return Outcome::Refused(err.to_string()),
         };
-        if self.scene().is_some() && self.scene() == edited.document.scene() {
+        // bytes that mean the same change nothing
+        let touched = match (self.scene(), edited.document.scene()) {
+            (Some(before), Some(after)) => edited.touched.that_differs(before, after),
+            _ => edited.touched,
+        };
+        if self.scene().is_some() && touched.is_empty() {
             return Outcome::Done;
         }
         let label = label.unwrap_or_else(|| describe(edit, self.scene()));
-        self.history.push(edited.document, label, gesture);
+        self.doc.history.push(edited.document, label, &touched, gesture);
         if !edited.added.is_empty() {
             self.selection.set(&edited.added);
         }
-        self.document_changed();
+        self.document_changed(&touched);
         Outcome::Done
     }
 
     pub(super) fn undo(&mut self) {
         self.settle();
-        if self.history.undo() {
-            self.document_changed();
+        if let Some(touched) = self.doc.history.undo() {
+            self.document_changed(&touched);
         }
     }
 
     pub(super) fn redo(&mut self) {
         self.settle();
-        if self.history.redo() {
-            self.document_changed();
+        if let Some(touched) = self.doc.history.redo() {
+            self.document_changed(&touched);
         }
     }
 
     pub(super) fn abandon_gesture(&mut self) {
-        if self.history.abandon_gesture() {
-            self.document_changed();
+        if let Some(touched) = self.doc.history.abandon_gesture() {
+            self.document_changed(&touched);
         }
     }
 
@@ -69,7 +74,7 @@ impl Session {
             return Outcome::Refused("Locked: unlock it first".to_owned());
         }
         if !locked.is_empty() {
-            self.notices.push(Notice::warning(format!("{} locked objects were kept", locked.len())));
+            self.talk.notices.push(Notice::warning(format!("{} locked objects were kept", locked.len())));
         }
         self.edit(&Edit::Delete { keys }, None)
     }
@@ -133,15 +138,15 @@ impl Session {
     /// Writes the poses and velocities of the frame into the document, as one undo point, and starts
     /// from them.
     pub(super) fn take_state_as_start(&mut self) -> Outcome {
-        self.pause();
+        self.run.pause();
         let Some(scene) = self.scene() else { return Outcome::no_scene() };
         let there = body_keys(scene);
         let mut edits = Vec::new();
-        for now in self.frame.bodies.iter().filter(|now| there.contains(&now.key)) {
+        for now in self.run.frame.bodies.iter().filter(|now| there.contains(&now.key)) {
             edits.push(Edit::Body { key: now.key, change: BodyChange::Position(now.position) });
             edits.push(Edit::Body { key: now.key, change: BodyChange::Velocity(now.velocity) });
         }
-        let label = format!("Take state at {:.6} s as start", self.frame.time);
+        let label = format!("Take state at {:.6} s as start", self.run.frame.time);
         let outcome = self.edit_as(&Edit::All(edits), None, Some(label));
         if outcome == Outcome::Done {
             self.reset();

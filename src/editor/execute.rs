@@ -1,6 +1,6 @@
 //! Carrying out actions and commands: which line of the table calls what.
 
-use super::{Action, Command, Intent, Notice, Outcome, Request, Session, info};
+use super::{Action, Command, Intent, Notice, Outcome, Request, Session, SessionCommand, info};
 use crate::record::{RunCommand, RunState};
 
 /// How many Δt the five-step commands take.
@@ -11,7 +11,7 @@ impl Session {
     pub fn perform(&mut self, action: Action) -> Outcome {
         let outcome = self.carry_out(action);
         if let Outcome::Refused(reason) = &outcome {
-            self.notices.push(Notice::warning(reason.clone()));
+            self.talk.notices.push(Notice::warning(reason.clone()));
         }
         outcome
     }
@@ -26,14 +26,14 @@ impl Session {
             Action::AddToSelection(keys) => self.selection.add(&keys),
             Action::ToggleSelected(key) => self.selection.toggle(key),
             Action::SelectPlace(place) => self.selection.set_place(place),
-            Action::ShowEvent(event) => self.shown_event = event,
+            Action::ShowEvent(event) => self.run.shown_event = event,
             Action::GoToEvent(seq) => self.go_to_event(seq),
             Action::SetDt(text) => return self.set_dt(&text),
             Action::SetSpeed(speed) => self.set_speed(speed),
             Action::SetMethod(method) => self.set_method(method),
             Action::OpenPath(path) => self.ask_then(Intent::OpenPath(path)),
             Action::SaveTo(path) => self.save_to(path),
-            Action::DialogCancelled => self.after_save = None,
+            Action::DialogCancelled => self.talk.after_save = None,
             Action::Answer(answer) => self.answer(answer),
             Action::Paste(text) => return self.paste(&text, false),
             Action::PasteInPlace(text) => return self.paste(&text, true),
@@ -46,147 +46,141 @@ impl Session {
         Outcome::Done
     }
 
-    /// Carries out a command; one that its row of the table disables is refused with the row's reason.
-    pub fn execute(&mut self, command: Command) -> Outcome {
-        if let Some(Err(reason)) = info(command).map(|row| (row.enabled)(self)) {
-            return Outcome::Refused(format!("Not possible: {reason}"));
-        }
-        match command {
-            Command::New(style) => self.ask_then(Intent::New(style)),
-            Command::Open => self.requests.push(Request::ChooseOpenPath),
-            Command::OpenSample(index) => self.ask_then(Intent::OpenSample(index)),
-            Command::OpenRecent(index) => return self.open_recent(index),
-            Command::Save => self.save(None),
-            Command::SaveAs => self.save_as(None),
-            Command::Reload => self.ask_then(Intent::Reload),
-            Command::Quit => self.ask_then(Intent::Quit),
-
-            Command::Undo => self.undo(),
-            Command::Redo => self.redo(),
-            Command::Cut => return self.cut(),
-            Command::Copy => return self.copy(),
-            Command::Paste | Command::PasteInPlace => {
-                self.paste_in_place = command == Command::PasteInPlace;
-                self.requests.push(Request::ReadClipboard);
-            }
-            Command::Duplicate => return self.duplicate(),
-            Command::Delete => return self.delete(),
-            Command::SelectAll => self.select_all(),
-            Command::SelectNone => self.selection.clear(),
-            Command::Group => return self.group(),
-            Command::Ungroup => return self.ungroup(),
-            Command::Hide => return self.hide_selection(),
-            Command::ShowAll => return self.show_all(),
-            Command::Lock => return self.lock_selection(),
-            Command::UnlockAll => return self.unlock_all(),
-            Command::MakeIdsUnique => return self.edit(&crate::scene::Edit::MakeIdsUnique, None),
-            Command::TakeStateAsStart => return self.take_state_as_start(),
-
-            Command::AddSphereDynamic
-            | Command::AddSphereStatic
-            | Command::AddPlane
-            | Command::AddGravityPlane
-            | Command::AddGravityPoint
-            | Command::AddDrag => return self.add(command),
-
-            _ => return self.drive(command),
-        }
-        Outcome::Done
+    /// Why a command cannot be carried out now, by its row of the table.
+    pub fn refusal(&self, command: Command) -> Option<String> {
+        let reason = (info(command)?.enabled)(self).err()?;
+        Some(format!("Not possible: {reason}"))
     }
 
-    /// The commands of the transport; all others are the window's.
-    fn drive(&mut self, command: Command) -> Outcome {
+    /// Carries out a command; one that its row of the table disables is refused with the row's reason.
+    pub fn execute(&mut self, command: SessionCommand) -> Outcome {
+        if let Some(reason) = self.refusal(command.into()) {
+            return Outcome::Refused(reason);
+        }
         match command {
-            Command::Reset => self.reset(),
-            Command::PlayPause if self.is_busy() => self.pause(),
-            Command::PlayPause => self.play(),
-            Command::StepForward => self.step(1),
-            Command::StepForwardFive => self.step(MANY_STEPS),
-            Command::StepBack => self.go_back(RunCommand::StepBack),
-            Command::StepBackFive => (0..MANY_STEPS).for_each(|_| self.go_back(RunCommand::StepBack)),
-            Command::NextEvent => self.go_on(RunCommand::NextEvent { dt: self.playback.dt() }),
-            Command::EventBack => self.go_back(RunCommand::EventBack),
-            Command::FinishStep => self.go_on(RunCommand::FinishStep),
-            Command::Faster => self.set_speed(self.playback.speed() * 2.0),
-            Command::Slower => self.set_speed(self.playback.speed() / 2.0),
-            _ => return Outcome::NotMine,
+            SessionCommand::New(style) => self.ask_then(Intent::New(style)),
+            SessionCommand::Open => self.talk.requests.push(Request::ChooseOpenPath),
+            SessionCommand::OpenSample(index) => self.ask_then(Intent::OpenSample(index)),
+            SessionCommand::OpenRecent(index) => return self.open_recent(index),
+            SessionCommand::Save => self.save(None),
+            SessionCommand::SaveAs => self.save_as(None),
+            SessionCommand::Reload => self.ask_then(Intent::Reload),
+            SessionCommand::Quit => self.ask_then(Intent::Quit),
+
+            SessionCommand::Undo => self.undo(),
+            SessionCommand::Redo => self.redo(),
+            SessionCommand::Cut => return self.cut(),
+            SessionCommand::Copy => return self.copy(),
+            SessionCommand::Paste | SessionCommand::PasteInPlace => {
+                self.talk.paste_in_place = command == SessionCommand::PasteInPlace;
+                self.talk.requests.push(Request::ReadClipboard);
+            }
+            SessionCommand::Duplicate => return self.duplicate(),
+            SessionCommand::Delete => return self.delete(),
+            SessionCommand::SelectAll => self.select_all(),
+            SessionCommand::SelectNone => self.selection.clear(),
+            SessionCommand::Group => return self.group(),
+            SessionCommand::Ungroup => return self.ungroup(),
+            SessionCommand::Hide => return self.hide_selection(),
+            SessionCommand::ShowAll => return self.show_all(),
+            SessionCommand::Lock => return self.lock_selection(),
+            SessionCommand::UnlockAll => return self.unlock_all(),
+            SessionCommand::MakeIdsUnique => return self.edit(&crate::scene::Edit::MakeIdsUnique, None),
+            SessionCommand::TakeStateAsStart => return self.take_state_as_start(),
+            SessionCommand::Add(what) => return self.add(what),
+
+            SessionCommand::Reset => self.reset(),
+            SessionCommand::PlayPause if self.is_busy() => self.run.pause(),
+            SessionCommand::PlayPause => self.play(),
+            SessionCommand::StepForward => self.step(1),
+            SessionCommand::StepForwardFive => self.step(MANY_STEPS),
+            SessionCommand::StepBack => self.go_back(RunCommand::StepBack),
+            SessionCommand::StepBackFive => {
+                (0..MANY_STEPS).for_each(|_| self.go_back(RunCommand::StepBack));
+            }
+            SessionCommand::NextEvent => self.go_on(RunCommand::NextEvent { dt: self.run.playback.dt() }),
+            SessionCommand::EventBack => self.go_back(RunCommand::EventBack),
+            SessionCommand::FinishStep => self.go_on(RunCommand::FinishStep),
+            SessionCommand::Faster => self.set_speed(self.run.playback.speed() * 2.0),
+            SessionCommand::Slower => self.set_speed(self.run.playback.speed() / 2.0),
         }
         Outcome::Done
     }
 
     /// Whether the simulation plays or works on a command.
     pub fn is_busy(&self) -> bool {
-        matches!(self.frame.state, RunState::Playing | RunState::Busy)
+        matches!(self.run.frame.state, RunState::Playing | RunState::Busy)
     }
 
     fn play(&mut self) {
-        let time_speed = self.scene().map_or(1.0, |scene| scene.time_speed);
-        let speed = self.playback.speed() * time_speed;
-        self.go_on(RunCommand::Play { dt: self.playback.dt(), speed });
+        self.settle();
+        self.run.play(self.time_speed());
     }
 
     /// Lets a change of Δt or speed take hold while playing.
-    pub(super) fn play_on(&mut self) {
-        if self.frame.state == RunState::Playing {
-            self.play();
-        }
+    fn play_on(&mut self) {
+        self.run.play_on(self.time_speed());
+    }
+
+    fn time_speed(&self) -> f64 {
+        self.scene().map_or(1.0, |scene| scene.time_speed)
     }
 
     fn step(&mut self, count: u32) {
-        self.go_on(RunCommand::Step { dt: self.playback.dt(), count });
+        self.go_on(RunCommand::Step { dt: self.run.playback.dt(), count });
     }
 
     fn set_dt(&mut self, text: &str) -> Outcome {
-        if let Err(reason) = self.playback.set_dt(text) {
+        if let Err(reason) = self.run.playback.set_dt(text) {
             return Outcome::Refused(reason);
         }
-        self.settings.dt = Some(self.playback.dt_text().to_owned());
+        self.kept.settings.dt = Some(self.run.playback.dt_text().to_owned());
         self.store_settings();
         self.play_on();
         Outcome::Done
     }
 
     fn set_speed(&mut self, speed: f64) {
-        self.playback.set_speed(speed);
+        self.run.playback.set_speed(speed);
         self.play_on();
     }
 
     pub(super) fn can_run(&self) -> Result<(), &'static str> {
         self.can_reset()?;
-        if self.frame.state == RunState::Faulted {
+        if self.run.frame.state == RunState::Faulted {
             return Err("the simulation stopped on a fault; reset it or step back");
         }
         Ok(())
     }
 
     pub(super) fn can_reset(&self) -> Result<(), &'static str> {
-        if self.has_no_simulation() { Err("the scene has errors, see Problems") } else { Ok(()) }
+        if self.run.has_no_simulation() { Err("the scene has errors, see Problems") } else { Ok(()) }
     }
 
     pub(super) fn can_step_back(&self) -> Result<(), &'static str> {
-        if self.frame.can_step_back { Ok(()) } else { Err("there is nothing recorded to go back to") }
+        if self.run.frame.can_step_back { Ok(()) } else { Err("there is nothing recorded to go back to") }
     }
 
     pub(super) fn can_finish_step(&self) -> Result<(), &'static str> {
         self.can_run()?;
-        if self.frame.open_step.is_some() { Ok(()) } else { Err("no Δt is open; Next event opens one") }
+        if self.run.frame.open_step.is_some() { Ok(()) } else { Err("no Δt is open; Next event opens one") }
     }
 
     /// Shows an event that is listed, or goes back to it.
     fn go_to_event(&mut self, seq: u64) {
-        if self.frame.event(seq).is_none() {
+        if self.run.frame.event(seq).is_none() {
             self.go_back(RunCommand::GoTo { event: seq });
         }
-        self.awaited_event = Some(seq);
+        self.run.awaited_event = Some(seq);
         self.show_awaited_event();
     }
 
     pub(super) fn show_awaited_event(&mut self) {
-        let Some(seq) = self.awaited_event else { return };
-        let Some(row) = self.frame.event(seq).cloned() else { return };
+        let Some(seq) = self.run.awaited_event else { return };
+        let Some(row) = self.run.frame.event(seq).cloned() else { return };
         let keys: Vec<_> = [Some(row.a_key), row.b_key].into_iter().flatten().collect();
         self.selection.set(&keys);
-        self.shown_event = Some(row);
-        self.awaited_event = None;
+        self.run.shown_event = Some(row);
+        self.run.awaited_event = None;
     }
 }

@@ -4,17 +4,17 @@ use std::path::{Path, PathBuf};
 
 use super::dialogue::{Answer, Intent, Question, Request};
 use super::disk::{DiskStamp, has_changed};
-use super::history::History;
-use super::session::OpenFile;
+use super::open_document::OpenFile;
 use super::{Notice, Outcome, Recovered, SAMPLES, Session};
-use crate::scene::{Document, escaped, shown_path};
+use crate::scene::{Document, shown_path};
 
 impl Session {
     /// Does `intent`, after asking when it would lose unsaved changes.
     pub(super) fn ask_then(&mut self, intent: Intent) {
         self.settle();
         if self.is_dirty() {
-            self.question = Some(Question::UnsavedChanges { title: self.file.title.clone(), then: intent });
+            self.talk.question =
+                Some(Question::UnsavedChanges { title: self.doc.file.title.clone(), then: intent });
         } else {
             self.carry_on(intent);
         }
@@ -22,11 +22,12 @@ impl Session {
 
     /// Takes the answer to the open question. One that the question does not offer changes nothing.
     pub(super) fn answer(&mut self, answer: Answer) {
-        let offered = self.question.as_ref().is_some_and(|question| question.answers().contains(&answer));
+        let offered =
+            self.talk.question.as_ref().is_some_and(|question| question.answers().contains(&answer));
         if !offered {
             return;
         }
-        match (self.question.take(), answer) {
+        match (self.talk.question.take(), answer) {
             (Some(Question::UnsavedChanges { then, .. }), Answer::Save) => self.save(Some(then)),
             (Some(Question::UnsavedChanges { then, .. }), Answer::Discard) => self.carry_on(then),
             (Some(Question::ChangedOnDisk { path, then }), Answer::Overwrite) => self.write(&path, then),
@@ -49,17 +50,17 @@ impl Session {
                 Some(sample) => {
                     self.replace(Document::from_bytes(sample.bytes), OpenFile::untitled(sample.id), true);
                 }
-                None => self.notices.push(Notice::error("There is no such sample")),
+                None => self.talk.notices.push(Notice::error("There is no such sample")),
             },
             Intent::Reload => {
-                if let Some(path) = self.file.path.clone() {
+                if let Some(path) = self.doc.file.path.clone() {
                     self.open(path);
                 }
             }
             Intent::Restore(found) => self.restore(&found),
             Intent::Quit => {
                 self.forget_recovery();
-                self.requests.push(Request::Quit);
+                self.talk.requests.push(Request::Quit);
             }
         }
     }
@@ -72,7 +73,7 @@ impl Session {
             Ok(stamp) => stamp,
             Err(reason) => {
                 let text = format!("{} cannot be opened: {reason}", shown_path(&path));
-                return self.notices.push(Notice::error(text));
+                return self.talk.notices.push(Notice::error(text));
             }
         };
         let document = Document::open(&path);
@@ -80,20 +81,20 @@ impl Session {
             document.diagnostics().iter().find(|problem| problem.is_error() && problem.position.is_none());
         if let (None, Some(problem)) = (document.scene(), unread) {
             let text = format!("{} cannot be opened: {}", shown_path(&path), problem.message);
-            return self.notices.push(Notice::error(text));
+            return self.talk.notices.push(Notice::error(text));
         }
         let errors = document.diagnostics().iter().filter(|problem| problem.is_error()).count();
         self.replace(document, OpenFile::at(&path, Some(stamp)), true);
         self.remember(&path);
         if errors > 0 {
             let noun = if errors == 1 { "error" } else { "errors" };
-            let text = format!("{} has {errors} {noun}, see Problems", self.file.title);
-            self.notices.push(Notice::warning(text));
+            let text = format!("{} has {errors} {noun}, see Problems", self.doc.file.title);
+            self.talk.notices.push(Notice::warning(text));
         }
     }
 
     pub(super) fn open_recent(&mut self, index: usize) -> Outcome {
-        let Some(path) = self.settings.recent.get(index).cloned() else {
+        let Some(path) = self.kept.settings.recent.get(index).cloned() else {
             return Outcome::Refused("There is no such recent file".to_owned());
         };
         self.ask_then(Intent::OpenPath(path));
@@ -104,7 +105,7 @@ impl Session {
         let bytes = match found.bytes() {
             Ok(bytes) => bytes,
             Err(err) => {
-                return self.notices.push(Notice::error(format!("The work cannot be restored: {err}")));
+                return self.talk.notices.push(Notice::error(format!("The work cannot be restored: {err}")));
             }
         };
         let file = match &found.path {
@@ -116,34 +117,31 @@ impl Session {
         match self.write_recovery() {
             Ok(()) => found.forget(),
             Err(err) => {
-                self.notices.push(Notice::warning(format!("Unsaved work cannot be kept safe: {err}")));
+                self.talk.notices.push(Notice::warning(format!("Unsaved work cannot be kept safe: {err}")));
             }
         }
-        self.notices.push(Notice::info("Restored. Save to keep it."));
+        self.talk.notices.push(Notice::info("Restored. Save to keep it."));
     }
 
     fn replace(&mut self, document: Document, file: OpenFile, saved: bool) {
         self.forget_recovery();
-        self.drop_run();
-        if file.path.is_none() || file.path != self.file.path {
+        self.run.forget();
+        if file.path.is_none() || file.path != self.doc.file.path {
             self.forget_method();
         }
-        self.history = History::new(document, saved);
-        self.file = file;
+        self.doc.replace(document, file, saved);
         self.selection.clear();
-        self.shown_event = None;
-        self.after_save = None;
-        self.last_copies = None;
-        self.opened += 1;
+        self.run.shown_event = None;
+        self.talk.after_save = None;
         self.sync();
     }
 
     /// Saves to the document's file, or asks where to; then does `then`.
     pub(super) fn save(&mut self, then: Option<Intent>) {
         self.settle();
-        match (self.file.path.clone(), self.file.stamp) {
+        match (self.doc.file.path.clone(), self.doc.file.stamp) {
             (Some(path), Some(stamp)) if has_changed(&path, stamp) => {
-                self.question = Some(Question::ChangedOnDisk { path, then });
+                self.talk.question = Some(Question::ChangedOnDisk { path, then });
             }
             (Some(path), _) => self.write(&path, then),
             (None, _) => self.save_as(then),
@@ -151,18 +149,18 @@ impl Session {
     }
 
     pub(super) fn save_as(&mut self, then: Option<Intent>) {
-        self.after_save = then;
-        let directory = self.file.path.as_deref().and_then(Path::parent).map(Path::to_owned);
-        let name = self.file.path.as_deref().and_then(Path::file_name);
-        let title = name.map_or(self.file.title.clone(), |name| name.to_string_lossy().into_owned());
+        self.talk.after_save = then;
+        let directory = self.doc.file.path.as_deref().and_then(Path::parent).map(Path::to_owned);
+        let name = self.doc.file.path.as_deref().and_then(Path::file_name);
+        let title = name.map_or(self.doc.file.title.clone(), |name| name.to_string_lossy().into_owned());
         let file_name = if title.contains('.') { title } else { format!("{title}.xml") };
-        self.requests.push(Request::ChooseSavePath { directory, file_name });
+        self.talk.requests.push(Request::ChooseSavePath { directory, file_name });
     }
 
     /// Saves to the file that the user chose.
     pub(super) fn save_to(&mut self, path: PathBuf) {
         self.settle();
-        let then = self.after_save.take();
+        let then = self.talk.after_save.take();
         let with_extension = path.with_extension("xml");
         // no dialog has asked about the longer name, so it must not replace anything
         let path = if path.extension().is_none() && !with_extension.exists() { with_extension } else { path };
@@ -172,13 +170,13 @@ impl Session {
     fn write(&mut self, path: &Path, then: Option<Intent>) {
         if let Err(err) = self.document().save(path) {
             let text = format!("{} cannot be saved: {err}", shown_path(path));
-            return self.notices.push(Notice::error(text));
+            return self.talk.notices.push(Notice::error(text));
         }
-        self.history.mark_saved();
-        self.file = OpenFile::at(path, DiskStamp::of(path).ok());
+        self.doc.history.mark_saved();
+        self.doc.file = OpenFile::at(path, DiskStamp::of(path).ok());
         self.forget_recovery();
         self.remember(path);
-        self.notices.push(Notice::info(format!("Saved {}", self.file.title)));
+        self.talk.notices.push(Notice::info(format!("Saved {}", self.doc.file.title)));
         if let Some(intent) = then {
             self.carry_on(intent);
         }
@@ -186,47 +184,36 @@ impl Session {
 
     /// Tells when another program changed or removed the file.
     pub(super) fn look_at_disk(&mut self) {
-        let (Some(path), Some(stamp)) = (&self.file.path, self.file.stamp) else { return };
+        let (Some(path), Some(stamp)) = (&self.doc.file.path, self.doc.file.stamp) else { return };
         if !path.exists() {
-            self.notices.push(Notice::warning(format!("{} is gone from the disk", self.file.title)));
-            self.history.mark_unsaved();
-            self.file.stamp = None;
-        } else if has_changed(path, stamp) && !self.file.reported_change {
-            self.file.reported_change = true;
-            let text = format!("{} changed on the disk. File > Reload reads it again.", self.file.title);
-            self.notices.push(Notice::warning(text));
+            self.talk.notices.push(Notice::warning(format!("{} is gone from the disk", self.doc.file.title)));
+            self.doc.history.mark_unsaved();
+            self.doc.file.stamp = None;
+        } else if has_changed(path, stamp) && !self.doc.file.reported_change {
+            self.doc.file.reported_change = true;
+            let text = format!("{} changed on the disk. File > Reload reads it again.", self.doc.file.title);
+            self.talk.notices.push(Notice::warning(text));
         }
     }
 
     fn remember(&mut self, path: &Path) {
-        self.settings.add_recent(path);
+        self.kept.settings.add_recent(path);
         self.store_settings();
     }
 
     /// Settings are a convenience: that they cannot be kept is reported, and stops nothing.
     pub(super) fn store_settings(&mut self) {
-        if let Err(err) = self.settings.store(&self.storage) {
-            self.notices.push(Notice::warning(format!("Settings cannot be kept: {err}")));
+        if let Err(err) = self.kept.settings.store(&self.kept.storage) {
+            self.talk.notices.push(Notice::warning(format!("Settings cannot be kept: {err}")));
         }
     }
 
     pub(super) fn can_save(&self) -> Result<(), &'static str> {
-        if self.is_dirty() || self.file.path.is_none() { Ok(()) } else { Err("everything is saved") }
+        if self.is_dirty() || self.doc.file.path.is_none() { Ok(()) } else { Err("everything is saved") }
     }
 
     pub(super) fn can_reload(&self) -> Result<(), &'static str> {
-        if self.file.path.is_some() { Ok(()) } else { Err("the scene has no file yet") }
-    }
-}
-
-impl OpenFile {
-    pub fn untitled(title: &str) -> Self {
-        Self { path: None, title: title.to_owned(), stamp: None, reported_change: false }
-    }
-
-    fn at(path: &Path, stamp: Option<DiskStamp>) -> Self {
-        let title = escaped(&path.file_name().unwrap_or(path.as_os_str()).to_string_lossy());
-        Self { path: Some(path.to_owned()), title, stamp, reported_change: false }
+        if self.doc.file.path.is_some() { Ok(()) } else { Err("the scene has no file yet") }
     }
 }
 

@@ -3,7 +3,7 @@
 
 use std::collections::VecDeque;
 
-use crate::scene::Document;
+use crate::scene::{Document, Touched};
 
 /// Most points kept. More than a person goes back through; with [`MAX_BODIES_HELD`] it bounds memory.
 const MAX_POINTS: usize = 4096;
@@ -21,6 +21,8 @@ struct UndoPoint {
     document: Document,
     /// Such as `Move 5853`; empty for the document as opened.
     label: String,
+    /// What that edit touched: going back or forth over it touches the same.
+    touched: Touched,
     /// Never reused, so equal means the very same document.
     state: u64,
     bodies: usize,
@@ -41,7 +43,13 @@ pub(super) struct History {
 impl History {
     /// `saved` says whether the document is what its file holds.
     pub fn new(document: Document, saved: bool) -> Self {
-        let present = UndoPoint { bodies: body_count(&document), document, label: String::new(), state: 0 };
+        let present = UndoPoint {
+            bodies: body_count(&document),
+            document,
+            label: String::new(),
+            touched: Touched::default(),
+            state: 0,
+        };
         Self {
             past: VecDeque::new(),
             present,
@@ -76,13 +84,16 @@ impl History {
     }
 
     /// Makes `document` the present. It replaces the present if that came from the same open gesture.
-    pub fn push(&mut self, document: Document, label: String, gesture: Option<Gesture>) {
-        let point = UndoPoint { bodies: body_count(&document), document, label, state: self.next_state };
+    pub fn push(&mut self, document: Document, label: String, touched: &Touched, gesture: Option<Gesture>) {
+        let (bodies, touched) = (body_count(&document), touched.clone());
+        let point = UndoPoint { document, label, touched, state: self.next_state, bodies };
         self.next_state += 1;
         self.future.clear();
         let before = std::mem::replace(&mut self.present, point);
         if gesture.is_none() || self.open != gesture {
             self.past.push_back(before);
+        } else {
+            self.present.touched.extend(&before.touched);
         }
         self.open = gesture;
         self.drop_oldest();
@@ -93,30 +104,33 @@ impl History {
         self.open = None;
     }
 
-    /// Takes back what the open gesture did, leaving nothing to redo. Returns whether there was something.
-    pub fn abandon_gesture(&mut self) -> bool {
-        let Some(_) = self.open.take() else { return false };
-        let Some(before) = self.past.pop_back() else { return false };
-        self.present = before;
-        true
+    /// Takes back what the open gesture did, leaving nothing to redo. Returns what that touched.
+    pub fn abandon_gesture(&mut self) -> Option<Touched> {
+        self.open.take()?;
+        let before = self.past.pop_back()?;
+        Some(std::mem::replace(&mut self.present, before).touched)
     }
 
     pub fn open_gesture(&self) -> Option<Gesture> {
         self.open
     }
 
-    pub fn undo(&mut self) -> bool {
+    /// Goes back over the last edit. Returns what that touched.
+    pub fn undo(&mut self) -> Option<Touched> {
         self.open = None;
-        let Some(before) = self.past.pop_back() else { return false };
+        let before = self.past.pop_back()?;
+        let touched = self.present.touched.clone();
         self.future.push(std::mem::replace(&mut self.present, before));
-        true
+        Some(touched)
     }
 
-    pub fn redo(&mut self) -> bool {
+    /// Goes forth over the edit taken back last. Returns what that touched.
+    pub fn redo(&mut self) -> Option<Touched> {
         self.open = None;
-        let Some(after) = self.future.pop() else { return false };
+        let after = self.future.pop()?;
+        let touched = after.touched.clone();
         self.past.push_back(std::mem::replace(&mut self.present, after));
-        true
+        Some(touched)
     }
 
     /// What undo would take back.

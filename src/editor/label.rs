@@ -34,6 +34,7 @@ fn verb_of(edit: &Edit) -> &'static str {
         Edit::MapTiles(_) => "Change the tiles",
         Edit::TimeSpeed(_) => "Change the time speed",
         Edit::Params(_) => "Change the solver",
+        Edit::Viewpoints(_) => "Change the viewpoints",
         Edit::Body { change, .. } => body_verb(change),
         Edit::Force { change, .. } => force_verb(change),
         Edit::AddBody(_) => "Add a body",
@@ -45,10 +46,17 @@ fn verb_of(edit: &Edit) -> &'static str {
             let verbs: BTreeSet<&str> = edits.iter().map(verb_of).collect();
             match (verbs.len(), edits.first()) {
                 (1, Some(first)) => verb_of(first),
-                _ => "Edit",
+                _ => verb_of_drag(&verbs).unwrap_or("Edit"),
             }
         }
     }
+}
+
+/// A drag that turns or resizes moves too, and turns velocities: it is called after the first of these.
+fn verb_of_drag(verbs: &BTreeSet<&str>) -> Option<&'static str> {
+    const DRAGGED: [&str; 4] = ["Resize", "Rotate", "Move", "Change velocity of"];
+    let dragged = verbs.iter().all(|verb| DRAGGED.contains(verb));
+    dragged.then(|| DRAGGED.into_iter().find(|verb| verbs.contains(verb))).flatten()
 }
 
 fn body_verb(change: &BodyChange) -> &'static str {
@@ -94,6 +102,7 @@ fn collect_subjects(edit: &Edit, subjects: &mut BTreeSet<NodeKey>) {
         | Edit::MapTiles(_)
         | Edit::TimeSpeed(_)
         | Edit::Params(_)
+        | Edit::Viewpoints(_)
         | Edit::AddBody(_)
         | Edit::AddForce(_)
         | Edit::MakeIdsUnique => {}

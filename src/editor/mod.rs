@@ -18,15 +18,19 @@ mod expression;
 mod fields;
 mod files;
 mod history;
+mod kept;
 mod label;
 mod live;
 mod notice;
+mod open_document;
+mod orientation;
 mod palette;
 mod path_text;
 mod playback;
 mod problems;
 mod recovered;
 mod recovery;
+mod run;
 mod safekeeping;
 mod samples;
 mod selection;
@@ -34,11 +38,14 @@ mod session;
 mod settings;
 mod start;
 mod sync;
+mod talk;
 mod trouble_list;
 
 pub use action::Action;
 pub use catalog::{COMMANDS, info};
-pub use command::{Command, Key, Menu, Outcome, Shortcut};
+pub use command::{
+    Addition, Command, Key, Menu, Outcome, SessionCommand, Shortcut, ViewCommand, WindowCommand,
+};
 pub use command_info::CommandInfo;
 pub use dialogue::{Answer, Intent, Question, Request};
 pub use drag::Drag;

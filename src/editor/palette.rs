@@ -1,7 +1,7 @@
 //! Everything that can be done by name: the command table, samples, recent files and overlays.
 
 use super::catalog::COMMANDS;
-use super::{Command, SAMPLES, SampleGroup, Session};
+use super::{Command, SAMPLES, SampleGroup, Session, SessionCommand, ViewCommand, WindowCommand};
 use crate::design::TOOLS;
 use crate::scene::shown_path;
 use crate::view::OVERLAYS;
@@ -34,24 +34,32 @@ fn entries(session: &Session) -> impl Iterator<Item = PaletteEntry> {
     });
     let samples = SAMPLES.iter().enumerate().map(|(index, sample)| {
         let kind = if sample.group == SampleGroup::HardCase { "Hard case" } else { "Sample" };
-        entry(Command::OpenSample(index), format!("{kind}: {}", sample.title), sample.shows.to_owned())
+        entry(SessionCommand::OpenSample(index), format!("{kind}: {}", sample.title), sample.shows.to_owned())
     });
     let recent = session.settings().recent.iter().enumerate().map(|(index, path)| {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
-        entry(Command::OpenRecent(index), format!("Open recent: {name}"), shown_path(path))
+        entry(SessionCommand::OpenRecent(index), format!("Open recent: {name}"), shown_path(path))
     });
     let overlays = OVERLAYS.iter().enumerate().map(|(index, overlay)| {
-        entry(Command::ToggleOverlay(index), format!("Overlay: {}", overlay.label), overlay.help.to_owned())
+        entry(
+            ViewCommand::ToggleOverlay(index),
+            format!("Overlay: {}", overlay.label),
+            overlay.help.to_owned(),
+        )
     });
     let tools = TOOLS.iter().enumerate().map(|(index, tool)| PaletteEntry {
         disabled: session.can_use_tool(index).err(),
-        ..entry(Command::Tool(index), format!("{}: {}", tool.group.label(), tool.label), tool.help.to_owned())
+        ..entry(
+            WindowCommand::Tool(index),
+            format!("{}: {}", tool.group.label(), tool.label),
+            tool.help.to_owned(),
+        )
     });
     commands.chain(tools).chain(samples).chain(recent).chain(overlays)
 }
 
-fn entry(command: Command, label: String, help: String) -> PaletteEntry {
-    PaletteEntry { command, label, help, disabled: None }
+fn entry(command: impl Into<Command>, label: String, help: String) -> PaletteEntry {
+    PaletteEntry { command: command.into(), label, help, disabled: None }
 }
 
 /// How many letters of `label` lie between or before those of `query`; `None` when they are not all there

@@ -1,7 +1,7 @@
 //! The list of problems: those of the document, those of the scene as one designs it, then those of the simulation's
 //! start. Each says what to select and, where it is clear, how to put it right.
 
-use super::{Command, Session};
+use super::{Session, SessionCommand};
 use crate::design::{Mend, Trouble};
 use crate::record::RunState;
 use crate::scene::{Diagnostic, NodeKey, Severity};
@@ -53,7 +53,7 @@ impl Fix {
     pub fn help(self) -> &'static str {
         match self {
             Self::Mend(mend) => mend.help(),
-            Self::Reset => super::info(Command::Reset).map_or("", |row| row.help),
+            Self::Reset => super::info(SessionCommand::Reset).map_or("", |row| row.help),
         }
     }
 }
@@ -74,7 +74,7 @@ impl Session {
             })
             .collect();
         let of = (self.opened_count(), self.document_state());
-        let troubles = self.troubles.of(of, self.scene());
+        let troubles = self.doc.troubles.of(of, self.scene());
         problems.extend(troubles.iter().map(|trouble| self.placed(of_trouble(trouble))));
         for diagnostic in self.frame().problems.iter().filter(|diagnostic| !is_geometry(diagnostic)) {
             // the compiler repeats errors that the document has reported already, with a place

@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 
 use super::accuracy::Accuracy;
 use super::context::{AppContext, Message, Outbox, Shown};
-use super::dialogs::{Dialogs, FileDialogs};
+use super::dialogs::{Dialogs, FileDialogs, HelpPage};
+use super::dock::{self, Dock, Panel};
 use super::inspector::Inspector;
 use super::launch::Script;
 use super::problems::Problems;
@@ -20,7 +21,9 @@ use super::tree::Tree;
 use super::viewport::{self, Canvas, Views};
 use super::{menu, shortcuts, start, status, strip, theme};
 use crate::design::TOOLS;
-use crate::editor::{Action, Command, Notice, Outcome, Request, Session, Storage};
+use crate::editor::{
+    Action, Command, Notice, Outcome, Request, Session, SessionCommand, Storage, WindowCommand,
+};
 use crate::record::Runner;
 use crate::scene::shown_path;
 
@@ -48,7 +51,7 @@ pub struct App {
     pub(super) accuracy: Accuracy,
     dialogs: Dialogs,
     toasts: Toasts,
-    layout: PanelLayout,
+    dock: Dock,
     start_closed: bool,
     /// Whether a text field had the keyboard at the end of the last turn.
     was_typing: bool,
@@ -60,24 +63,18 @@ pub struct App {
     pub(super) forgetful: bool,
 }
 
-/// Which list is shown below the views.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) enum Tab {
-    #[default]
-    Events,
-    Problems,
-    Accuracy,
-}
-
-/// What outlives a run, beside egui's own memory of the panels' sizes.
+/// What outlives a run.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 #[serde(default)]
-pub(super) struct PanelLayout {
-    pub tab: Tab,
+struct Remembered {
+    panels: Option<egui_tiles::Tree<Panel>>,
     views: viewport::Remembered,
 }
 
 const STORAGE_KEY: &str = "polyscene layout";
+
+/// What diagrams need to be read, points.
+const ACCURACY_HEIGHT: f32 = 330.0;
 
 /// Size below which panels no longer have the room they want, points.
 pub(super) const TIGHT: [f32; 2] = [800.0, 500.0];
@@ -86,7 +83,7 @@ impl App {
     /// Works without OpenGL (`cc.gl` is `None` in tests): the views are then empty.
     pub fn new(cc: &eframe::CreationContext<'_>, parts: Parts) -> Self {
         theme::install(&cc.egui_ctx);
-        let layout: PanelLayout =
+        let remembered: Remembered =
             cc.storage.and_then(|storage| eframe::get_value(storage, STORAGE_KEY)).unwrap_or_default();
         let (canvas, failure) = Canvas::new(cc.gl.as_ref());
         let mut toasts = Toasts::default();
@@ -103,7 +100,7 @@ impl App {
             shown: None,
             next_revision: 1,
             outbox: Outbox::default(),
-            views: Views::new(canvas, &layout.views),
+            views: Views::new(canvas, &remembered.views),
             tree: Tree::default(),
             inspector: Inspector::default(),
             transport: Transport::default(),
@@ -111,7 +108,7 @@ impl App {
             accuracy: Accuracy::default(),
             dialogs: Dialogs::new(parts.files),
             toasts,
-            layout,
+            dock: Dock::new(remembered.panels),
             start_closed: false,
             was_typing: false,
             title: String::new(),
@@ -166,7 +163,7 @@ impl App {
         // a window for a script keeps nothing, so there is nothing to ask about
         if closing && self.session.is_dirty() && !self.forgetful {
             ctx.send_viewport_cmd(ViewportCommand::CancelClose);
-            self.outbox.command(Command::Quit);
+            self.outbox.command(SessionCommand::Quit);
         }
         self.set_title(ctx);
     }
@@ -222,40 +219,28 @@ impl App {
         egui::Panel::bottom("status").frame(menu_bar).exact_size(24.0).show(ui, |ui| {
             status::show(ui, &context, &self.pace);
         });
-        // a window made tiny squeezes panels of its own, so that the usual ones come back as they were
-        let tight = ctx.content_rect().width() < TIGHT[0] || ctx.content_rect().height() < TIGHT[1];
-        let panel = |name: &'static str| (name, tight);
-        egui::Panel::right(panel("inspector"))
-            .frame(flush)
-            .default_size(344.0)
-            .size_range(240.0..=560.0)
-            .show(ui, |ui| self.inspector.show(ui, &context));
-        // a diagram wants more room than a list, and each keeps the height it was given
-        let (name, height) =
-            if self.layout.tab == Tab::Accuracy { ("accuracy", 330.0) } else { ("lists", 176.0) };
-        egui::Panel::bottom(panel(name)).frame(flush).default_size(height).size_range(60.0..=560.0).show(
-            ui,
-            |ui| {
-                lists(ui, &context, (&mut self.problems, &mut self.accuracy), &mut self.layout.tab);
-            },
-        );
         egui::Panel::bottom("strip").frame(flush).exact_size(strip::HEIGHT).show(ui, |ui| {
             strip::show(ui, &context);
         });
-        egui::Panel::left(panel("tree")).frame(flush).default_size(228.0).size_range(140.0..=460.0).show(
-            ui,
-            |ui| {
-                self.tree.show(ui, &context);
-            },
-        );
-        let area = egui::CentralPanel::no_frame().show(ui, |ui| {
-            // a part is seen in its place before it is made
-            let preview = AppContext { shown: self.dialogs.preview().or(context.shown), ..context };
-            self.views.show(ui, &preview);
-            ui.min_rect()
+        let shown_views: [bool; 4] = std::array::from_fn(|index| self.views.is_shown(index));
+        // a part is seen in its place before it is made
+        let preview = AppContext { shown: self.dialogs.preview().or(context.shown), ..context };
+        let mut contents = Contents {
+            context: &context,
+            preview: &preview,
+            tree: &mut self.tree,
+            inspector: &mut self.inspector,
+            problems: &mut self.problems,
+            accuracy: &mut self.accuracy,
+            views: &mut self.views,
+            area: None,
+        };
+        egui::CentralPanel::no_frame().show(ui, |ui| {
+            self.dock.show(ui, &mut contents, |index| shown_views.get(index).is_some_and(|shown| *shown));
         });
+        let area = contents.area.unwrap_or_else(|| ctx.content_rect());
         if !self.start_closed && start::is_wanted(&self.session) && context.session.question().is_none() {
-            self.start_closed = start::show(&ctx, area.inner, &context);
+            self.start_closed = start::show(&ctx, area, &context);
         }
         self.dialogs.show(&ctx, &context);
         self.toasts.show(&ctx);
@@ -289,7 +274,7 @@ impl App {
 
     fn carry_out_message(&mut self, ctx: &Context, message: Message) {
         match message {
-            Message::Do(Action::Command(command)) => drop(self.execute(ctx, command)),
+            Message::Command(command) => drop(self.execute(ctx, command)),
             Message::Do(action) => drop(self.session.perform(action)),
             Message::Frame(keys) => {
                 self.with_views(ctx, |views, context| views.frame(context, Some(&keys), None));
@@ -301,8 +286,8 @@ impl App {
                 let context = context_of(&self.session, self.shown.as_ref(), &self.outbox, ctx);
                 self.tree.rename(key, &context);
             }
-            Message::ShowProblems => self.layout.tab = Tab::Problems,
-            Message::ShowEvents => self.layout.tab = Tab::Events,
+            Message::ShowProblems => self.dock.bring_to_front(Panel::Problems),
+            Message::ShowEvents => self.dock.bring_to_front(Panel::Events),
             Message::OverlaysInAllViews(overlays) => self.views.set_overlays(overlays),
             Message::Tell(text) => self.toasts.add(Notice::info(text)),
             Message::Warn(text) => self.toasts.add(Notice::warning(text)),
@@ -316,31 +301,49 @@ impl App {
         }
     }
 
-    /// First the session; what it does not know is the window's.
+    /// Hands a command to who carries it out; one that its row of the table disables is refused.
     pub(super) fn execute(&mut self, ctx: &Context, command: Command) -> Outcome {
-        let outcome = self.session.perform(Action::Command(command));
-        if outcome != Outcome::NotMine {
-            return outcome;
+        let refusal = self.session.refusal(command);
+        match (command, refusal) {
+            (Command::Session(command), _) => return self.session.perform(Action::Command(command)),
+            (_, Some(reason)) => {
+                self.toasts.add(Notice::warning(reason.clone()));
+                return Outcome::Refused(reason);
+            }
+            (Command::View(command), None) => {
+                self.with_views(ctx, |views, context| views.execute(command, context));
+            }
+            (Command::Window(command), None) => return self.execute_here(ctx, command),
         }
+        Outcome::Done
+    }
+
+    fn execute_here(&mut self, ctx: &Context, command: WindowCommand) -> Outcome {
         match command {
-            Command::SwitchColors => {
+            WindowCommand::SwitchColors => {
                 let dark = ctx.theme() == egui::Theme::Dark;
                 ctx.set_theme(if dark { egui::Theme::Light } else { egui::Theme::Dark });
             }
-            Command::ShowAccuracy => self.layout.tab = Tab::Accuracy,
-            Command::Find => self.tree.find(),
-            Command::Tool(index) => return self.use_tool(index),
-            Command::Rename => {
+            WindowCommand::ShowAccuracy => {
+                self.dock.bring_to_front(Panel::Accuracy);
+                self.dock.give_height(Panel::Accuracy, ACCURACY_HEIGHT);
+            }
+            WindowCommand::ResetLayout => self.dock.reset(),
+            WindowCommand::Tool(index) => return self.use_tool(index),
+            WindowCommand::Find => {
+                self.dock.bring_to_front(Panel::Tree);
+                self.tree.find();
+            }
+            WindowCommand::Rename => {
                 if let Some(key) = self.session.selection().primary() {
                     self.outbox.send(Message::Rename(key));
                     ctx.request_repaint();
                 }
             }
-            _ => {
-                let known = self.dialogs.execute(command)
-                    || self.with_views(ctx, |views, context| views.execute(command, context));
-                debug_assert!(known, "nobody knows {command:?}");
-            }
+            WindowCommand::Help => self.dialogs.open_help(HelpPage::Window),
+            WindowCommand::Shortcuts => self.dialogs.open_help(HelpPage::Keys),
+            WindowCommand::About => self.dialogs.open_help(HelpPage::About),
+            WindowCommand::Palette => self.dialogs.open_palette(),
         }
         Outcome::Done
     }
@@ -367,8 +370,8 @@ impl App {
         }
     }
 
-    pub(super) fn show_tab(&mut self, tab: Tab) {
-        self.layout.tab = tab;
+    pub(super) fn show_panel(&mut self, panel: Panel) {
+        self.dock.bring_to_front(panel);
     }
 
     fn with_views<R>(&mut self, ctx: &Context, run: impl FnOnce(&mut Views, &AppContext<'_>) -> R) -> R {
@@ -395,51 +398,64 @@ fn context_of<'a>(
     AppContext { session, shown, theme: viewport::theme_of(ctx), outbox }
 }
 
-/// Events, problems and accuracy, one behind the other.
-fn lists(
-    ui: &mut Ui,
-    context: &AppContext<'_>,
-    (problems, accuracy): (&mut Problems, &mut Accuracy),
-    tab: &mut Tab,
-) {
-    let tones = super::colors::tones(ui);
-    egui::Frame::new().fill(tones.heading).inner_margin(egui::Margin::symmetric(6, 2)).show(ui, |ui| {
-        ui.horizontal(|ui| {
-            let events = context.session.frame().events.len();
-            ui.selectable_value(tab, Tab::Events, format!("Events of this Δt ({events})"));
-            let counted = |count: usize, what: &str| match count {
-                0 => None,
-                1 => Some(format!("1 {what}")),
-                _ => Some(format!("{count} {what}s")),
-            };
-            let counts = [counted(problems.errors(), "error"), counted(problems.warnings(), "warning")];
-            let counts: Vec<String> = counts.into_iter().flatten().collect();
-            let count = if counts.is_empty() { String::new() } else { format!(" ({})", counts.join(", ")) };
-            let count = format!("Problems{count}");
-            ui.selectable_value(tab, Tab::Problems, count);
-            let running = if accuracy.is_running() { " (running)" } else { "" };
-            ui.selectable_value(tab, Tab::Accuracy, format!("Accuracy{running}"));
-            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                if *tab == Tab::Events && events > 0 {
-                    let copy = ui
-                        .small_button("Copy")
-                        .on_hover_text("All rows as text with tabs, for a spreadsheet");
-                    if copy.clicked() {
-                        ui.ctx().copy_text(super::events::as_text(context.session.frame()));
-                    }
-                }
-                ui.take_available_width();
-            });
-        });
-    });
-    egui::Frame::new().inner_margin(egui::Margin::symmetric(6, 2)).show(ui, |ui| {
-        match tab {
-            Tab::Events => super::events::show(ui, context),
-            Tab::Problems => problems.show(ui, context),
-            Tab::Accuracy => accuracy.show(ui, context),
+/// The panels, for the layout to show.
+struct Contents<'a> {
+    context: &'a AppContext<'a>,
+    /// With what a dialog is about to make.
+    preview: &'a AppContext<'a>,
+    tree: &'a mut Tree,
+    inspector: &'a mut Inspector,
+    problems: &'a mut Problems,
+    accuracy: &'a mut Accuracy,
+    views: &'a mut Views,
+    /// Around the views shown so far.
+    area: Option<egui::Rect>,
+}
+
+impl dock::Contents for Contents<'_> {
+    fn title(&self, panel: Panel) -> String {
+        match panel {
+            Panel::Tree => "Scene".to_owned(),
+            Panel::Inspector => "Inspector".to_owned(),
+            Panel::Events => format!("Events of this Δt ({})", self.context.session.frame().events.len()),
+            Panel::Problems => self.problems.title(),
+            Panel::Accuracy if self.accuracy.is_running() => "Accuracy (running)".to_owned(),
+            Panel::Accuracy => "Accuracy".to_owned(),
+            Panel::View(index) => self.views.title(index).to_owned(),
         }
-        ui.take_available_space();
-    });
+    }
+
+    fn show(&mut self, ui: &mut Ui, panel: Panel) -> bool {
+        let framed = |ui: &mut Ui, show: &mut dyn FnMut(&mut Ui)| {
+            egui::Frame::new().inner_margin(egui::Margin::symmetric(6, 2)).show(ui, |ui| {
+                show(ui);
+                ui.take_available_space();
+            });
+        };
+        match panel {
+            Panel::Tree => self.tree.show(ui, self.context),
+            Panel::Inspector => self.inspector.show(ui, self.context),
+            Panel::Events => framed(ui, &mut |ui| super::events::show(ui, self.context)),
+            Panel::Problems => framed(ui, &mut |ui| self.problems.show(ui, self.context)),
+            Panel::Accuracy => framed(ui, &mut |ui| self.accuracy.show(ui, self.context)),
+            Panel::View(index) => {
+                let rect = ui.max_rect();
+                self.area = Some(self.area.map_or(rect, |area| area.union(rect)));
+                return self.views.show(ui, index, self.preview);
+            }
+        }
+        false
+    }
+
+    fn beside_tabs(&mut self, ui: &mut Ui, panel: Panel) {
+        let frame = self.context.session.frame();
+        if panel == Panel::Events && !frame.events.is_empty() {
+            let copy = ui.small_button("Copy").on_hover_text("All rows as text with tabs, for a spreadsheet");
+            if copy.clicked() {
+                ui.ctx().copy_text(super::events::as_text(frame));
+            }
+        }
+    }
 }
 
 impl eframe::App for App {
@@ -464,7 +480,7 @@ impl eframe::App for App {
         if self.forgetful {
             return;
         }
-        self.layout.views = self.views.remembered();
-        eframe::set_value(storage, STORAGE_KEY, &self.layout);
+        let panels = Some(self.dock.saved());
+        eframe::set_value(storage, STORAGE_KEY, &Remembered { panels, views: self.views.remembered() });
     }
 }

@@ -15,8 +15,10 @@ use crate::view;
 /// What a panel asks for.
 #[derive(Debug)]
 pub enum Message {
-    /// To the session; commands that it does not know go to the window.
+    /// To the session.
     Do(Action),
+    /// To the session, the views or the window.
+    Command(Command),
     /// To the views.
     Frame(Vec<NodeKey>),
     FramePlace(DVec3),
@@ -51,8 +53,8 @@ impl Outbox {
         self.send(Message::Do(action));
     }
 
-    pub fn command(&self, command: Command) {
-        self.act(Action::Command(command));
+    pub fn command(&self, command: impl Into<Command>) {
+        self.send(Message::Command(command.into()));
     }
 
     pub fn take(&self) -> Vec<Message> {

@@ -50,6 +50,8 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>) {
         .id_salt("events")
         .striped(true)
         .sense(Sense::click())
+        // a low panel shows few rows, not a list that runs out of it
+        .min_scrolled_height(0.0)
         .stick_to_bottom(true)
         .column(Column::initial(52.0).resizable(true))
         .column(Column::initial(104.0).resizable(true))

@@ -2,69 +2,109 @@
 
 use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 
-use crate::editor::Command;
+use crate::editor::{Addition, Command, SessionCommand, ViewCommand};
+use crate::view::Tool;
 
 /// Draws a command's icon into a square; `false` if it has none.
 pub fn paint(painter: &Painter, square: Rect, command: Command, color: Color32) -> bool {
     let pen = Pen { painter, square, color };
     match command {
-        Command::Reset => {
+        Command::Session(SessionCommand::Reset) => {
             pen.bar(0.16);
             pen.triangle(0.9, 0.3);
         }
-        Command::StepBack => {
+        Command::Session(SessionCommand::StepBack) => {
             pen.triangle(0.72, 0.22);
             pen.bar(0.8);
         }
-        Command::EventBack => {
+        Command::Session(SessionCommand::EventBack) => {
             pen.triangle(0.62, 0.12);
             pen.dot(0.82);
         }
-        Command::PlayPause => pen.triangle(0.22, 0.86),
-        Command::StepForward => {
+        Command::Session(SessionCommand::PlayPause) => pen.triangle(0.22, 0.86),
+        Command::Session(SessionCommand::StepForward) => {
             pen.bar(0.2);
             pen.triangle(0.28, 0.78);
         }
-        Command::NextEvent => {
+        Command::Session(SessionCommand::NextEvent) => {
             pen.dot(0.18);
             pen.triangle(0.38, 0.88);
         }
-        Command::FinishStep => {
+        Command::Session(SessionCommand::FinishStep) => {
             pen.triangle(0.1, 0.7);
             pen.bar(0.84);
         }
-        Command::Undo => pen.turn(false),
-        Command::Redo => pen.turn(true),
-        Command::AddSphereDynamic => {
+        Command::Session(SessionCommand::Undo) => pen.turn(false),
+        Command::Session(SessionCommand::Redo) => pen.turn(true),
+        Command::Session(SessionCommand::Add(Addition::SphereDynamic)) => {
             painter.circle_filled(pen.at(0.5, 0.5), 0.38 * square.width(), color);
         }
-        Command::AddSphereStatic => {
+        Command::Session(SessionCommand::Add(Addition::SphereStatic)) => {
             painter.circle_stroke(pen.at(0.5, 0.5), 0.36 * square.width(), pen.line());
         }
-        Command::AddPlane => pen.outline(&[(0.3, 0.2), (0.95, 0.2), (0.7, 0.8), (0.05, 0.8)]),
-        Command::AddGravityPlane => {
+        Command::Session(SessionCommand::Add(Addition::Plane)) => {
+            pen.outline(&[(0.3, 0.2), (0.95, 0.2), (0.7, 0.8), (0.05, 0.8)]);
+        }
+        Command::Session(SessionCommand::Add(Addition::GravityPlane)) => {
             pen.polyline(&[(0.5, 0.08), (0.5, 0.9)]);
             pen.polyline(&[(0.22, 0.6), (0.5, 0.92), (0.78, 0.6)]);
         }
-        Command::AddGravityPoint => {
+        Command::Session(SessionCommand::Add(Addition::GravityPoint)) => {
             pen.outline(&[(0.5, 0.1), (0.9, 0.5), (0.5, 0.9), (0.1, 0.5)]);
             painter.circle_filled(pen.at(0.5, 0.5), 0.12 * square.width(), color);
         }
-        Command::AddDrag => {
+        Command::Session(SessionCommand::Add(Addition::Drag)) => {
             for (y, right) in [(0.25, 0.85), (0.5, 0.65), (0.75, 0.8)] {
                 pen.polyline(&[(0.1, y), (right, y)]);
             }
         }
-        Command::ToggleSnapping => {
+        Command::View(ViewCommand::ToggleSnapping) => {
             for (column, row) in (0..9_u8).map(|i| (f32::from(i % 3), f32::from(i / 3))) {
                 let radius = if column == 1.0 && row == 1.0 { 0.2 } else { 0.08 };
                 let center = pen.at(0.12 + 0.38 * column, 0.12 + 0.38 * row);
                 painter.circle_filled(center, radius * square.width(), color);
             }
         }
+        Command::View(ViewCommand::Tool(tool)) => paint_tool(&pen, tool),
+        Command::View(ViewCommand::ToggleLocalAxes) => {
+            pen.polyline(&[(0.12, 0.3), (0.35, 0.85), (0.92, 0.62)]);
+            pen.polyline(&[(0.35, 0.85), (0.55, 0.12)]);
+        }
         _ => return false,
     }
     true
+}
+
+/// What the handles of a selection do.
+fn paint_tool(pen: &Pen<'_>, tool: Tool) {
+    match tool {
+        Tool::Select => pen.outline(&[(0.25, 0.08), (0.8, 0.58), (0.5, 0.62), (0.3, 0.88)]),
+        Tool::Move => {
+            pen.polyline(&[(0.5, 0.06), (0.5, 0.94)]);
+            pen.polyline(&[(0.06, 0.5), (0.94, 0.5)]);
+            for [a, b, c] in [
+                [(0.36, 0.2), (0.5, 0.05), (0.64, 0.2)],
+                [(0.36, 0.8), (0.5, 0.95), (0.64, 0.8)],
+                [(0.2, 0.36), (0.05, 0.5), (0.2, 0.64)],
+                [(0.8, 0.36), (0.95, 0.5), (0.8, 0.64)],
+            ] {
+                pen.polyline(&[a, b, c]);
+            }
+        }
+        Tool::Turn => {
+            let bow = (0..=14).map(|i| {
+                let angle = i as f32 / 14.0 * 1.6 * std::f32::consts::PI;
+                (0.5 + 0.38 * angle.cos(), 0.5 + 0.38 * angle.sin())
+            });
+            pen.polyline(&bow.collect::<Vec<_>>());
+            pen.polyline(&[(0.38, 0.12), (0.62, 0.14), (0.5, 0.36)]);
+        }
+        Tool::Size => {
+            pen.outline(&[(0.1, 0.9), (0.1, 0.5), (0.5, 0.5), (0.5, 0.9)]);
+            pen.polyline(&[(0.5, 0.5), (0.92, 0.08)]);
+            pen.polyline(&[(0.6, 0.08), (0.92, 0.08), (0.92, 0.4)]);
+        }
+    }
 }
 
 /// Two bars: the simulation runs and can be paused.

@@ -5,7 +5,7 @@ use egui::{RichText, Ui};
 use super::colors::tones;
 use super::context::AppContext;
 use super::numbers::{count, duration, significant};
-use crate::editor::{Action, Command, Place};
+use crate::editor::{Action, Place, SessionCommand};
 use crate::record::{Busiest, Frame, Lag, LagCause};
 use crate::scene::NodeKey;
 
@@ -19,7 +19,7 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>, lag: &Lag, slower: Option<(f6
         ui.label(RichText::new(what_helps(lag)).color(tones(ui).weak));
         ui.separator();
         if ui.button("Pause").clicked() {
-            context.outbox.command(Command::PlayPause);
+            context.outbox.command(SessionCommand::PlayPause);
             ui.close();
         }
         if let Some((speed, name)) = slower

@@ -9,11 +9,12 @@ use std::time::{Duration, Instant};
 
 use egui::{Context, ViewportCommand};
 
-use super::app::{App, Parts, TIGHT, Tab};
+use super::app::{App, Parts, TIGHT};
 use super::dialogs::NativeFileDialogs;
+use super::dock::Panel;
 use super::error::GuiError;
 use crate::design::TOOLS;
-use crate::editor::{Action, COMMANDS, Command, Outcome, Storage, parse_number};
+use crate::editor::{Action, COMMANDS, Command, Outcome, Storage, ViewCommand, WindowCommand, parse_number};
 use crate::record::{RunState, ThreadRunner, Unanswered};
 use crate::render::{png, write_png};
 use crate::scene::{check_writable, same_file, shown_path};
@@ -161,7 +162,7 @@ enum Step {
     Select(String),
     Dt(String),
     Method(Method),
-    Tab(Tab),
+    Panel(Panel),
     Event(usize),
     /// A tool with its default values but these.
     Build(usize, Vec<(String, f64)>),
@@ -244,12 +245,12 @@ fn step(text: &str) -> Option<Step> {
             "build" => build(value),
             "method" => Some(Step::Method(Method::from_name(value)?)),
             "event" => Some(Step::Event(value.parse().ok()?)),
-            "tab" if value == "problems" => Some(Step::Tab(Tab::Problems)),
-            "tab" if value == "accuracy" => Some(Step::Tab(Tab::Accuracy)),
-            "tab" if value == "events" => Some(Step::Tab(Tab::Events)),
+            "tab" if value == "problems" => Some(Step::Panel(Panel::Problems)),
+            "tab" if value == "accuracy" => Some(Step::Panel(Panel::Accuracy)),
+            "tab" if value == "events" => Some(Step::Panel(Panel::Events)),
             "overlay" => {
                 let index = OVERLAYS.iter().position(|overlay| overlay.id == value)?;
-                Some(Step::Command(Command::ToggleOverlay(index)))
+                Some(Step::Command(ViewCommand::ToggleOverlay(index).into()))
             }
             _ => None,
         };
@@ -257,7 +258,8 @@ fn step(text: &str) -> Option<Step> {
     if text == "study" {
         return Some(Step::Study);
     }
-    let tool = || TOOLS.iter().position(|tool| tool.id == text).map(Command::Tool);
+    let tool =
+        || TOOLS.iter().position(|tool| tool.id == text).map(|index| WindowCommand::Tool(index).into());
     let row = COMMANDS.iter().find(|row| row.id == text).map(|row| row.command);
     row.or_else(tool).map(Step::Command)
 }
@@ -362,8 +364,8 @@ impl App {
             Step::Command(command) => self.execute(ctx, *command),
             Step::Dt(text) => self.perform(Action::SetDt(text.clone())),
             Step::Method(method) => self.perform(Action::SetMethod(*method)),
-            Step::Tab(tab) => {
-                self.show_tab(*tab);
+            Step::Panel(panel) => {
+                self.show_panel(*panel);
                 Outcome::Done
             }
             Step::Select(name) => {
@@ -390,7 +392,7 @@ impl App {
         };
         match outcome {
             Outcome::Refused(reason) => Err(reason),
-            _ => Ok(()),
+            Outcome::Done => Ok(()),
         }
     }
 
@@ -478,18 +480,19 @@ fn fail(ctx: &Context, script: &Script, failure: Failure) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::editor::SessionCommand;
 
     #[test]
     fn steps_are_read_and_unknown_ones_refused() {
-        assert_eq!(step("next_event"), Some(Step::Command(Command::NextEvent)));
+        assert_eq!(step("next_event"), Some(Step::Command(SessionCommand::NextEvent.into())));
         assert_eq!(step("select:5853"), Some(Step::Select("5853".into())));
-        assert_eq!(step("tab:problems"), Some(Step::Tab(Tab::Problems)));
+        assert_eq!(step("tab:problems"), Some(Step::Panel(Panel::Problems)));
         assert!(matches!(step("build:rack;Rows=3"), Some(Step::Build(_, values)) if values[0].1 == 3.0));
         assert_eq!(step("build:rack;Wings=2"), None);
         assert_eq!(step("build:castle"), None);
         assert_eq!(step("fly"), None);
         assert_eq!(step("overlay:nothing"), None);
-        assert_eq!(counted_step("next_event*3"), Ok((Step::Command(Command::NextEvent), 3)));
+        assert_eq!(counted_step("next_event*3"), Ok((Step::Command(SessionCommand::NextEvent.into()), 3)));
         for (text, reason) in [
             ("next_event*-1", "count"),
             ("next_event*0", "count"),

@@ -4,7 +4,9 @@ use egui::{Button, Ui};
 
 use super::context::AppContext;
 use crate::design::{TOOLS, ToolGroup};
-use crate::editor::{COMMANDS, Command, CommandInfo, Menu, SAMPLES, SampleGroup};
+use crate::editor::{
+    COMMANDS, CommandInfo, Menu, SAMPLES, SampleGroup, SessionCommand, ViewCommand, WindowCommand,
+};
 use crate::scene::shown_path;
 use crate::view::OVERLAYS;
 
@@ -36,11 +38,11 @@ fn rows(ui: &mut Ui, context: &AppContext<'_>, menu: Menu, snapping: bool) {
             ui.separator();
         }
         group = Some(row.group);
-        if row.command == Command::Quit {
+        if row.command == SessionCommand::Quit.into() {
             // what opens files stands together, above the way out
             continue;
         }
-        let mark = if snapping && row.command == Command::ToggleSnapping { ": on" } else { "" };
+        let mark = if snapping && row.command == ViewCommand::ToggleSnapping.into() { ": on" } else { "" };
         marked_entry(ui, context, row, mark);
     }
 }
@@ -78,7 +80,7 @@ fn tools(ui: &mut Ui, context: &AppContext<'_>, groups: &[ToolGroup]) {
                 let reason = || format!("{}\nNot now: {}.", tool.help, can.err().unwrap_or_default());
                 let response = if can.is_ok() { response } else { response.on_disabled_hover_text(reason()) };
                 if response.clicked() {
-                    context.outbox.command(Command::Tool(index));
+                    context.outbox.command(WindowCommand::Tool(index));
                     ui.close();
                 }
             }
@@ -95,7 +97,7 @@ fn files(ui: &mut Ui, context: &AppContext<'_>) {
     });
     ui.menu_button("Samples", |ui| samples(ui, context));
     ui.separator();
-    if let Some(quit) = crate::editor::info(Command::Quit) {
+    if let Some(quit) = crate::editor::info(SessionCommand::Quit) {
         entry(ui, context, quit);
     }
 }
@@ -106,7 +108,7 @@ pub fn recent_files(ui: &mut Ui, context: &AppContext<'_>) {
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
         let response = ui.button(name.as_ref()).on_hover_text(shown_path(path));
         if response.clicked() {
-            context.outbox.command(Command::OpenRecent(index));
+            context.outbox.command(SessionCommand::OpenRecent(index));
             ui.close();
         }
     }
@@ -121,7 +123,7 @@ fn samples(ui: &mut Ui, context: &AppContext<'_>) {
 fn samples_of(ui: &mut Ui, context: &AppContext<'_>, group: SampleGroup) {
     for (index, sample) in SAMPLES.iter().enumerate().filter(|(_, sample)| sample.group == group) {
         if ui.button(sample.title).on_hover_text(sample.shows).clicked() {
-            context.outbox.command(Command::OpenSample(index));
+            context.outbox.command(SessionCommand::OpenSample(index));
             ui.close();
         }
     }
@@ -133,7 +135,7 @@ pub fn overlay_menu(ui: &mut Ui, context: &AppContext<'_>, overlays: crate::view
         for (index, overlay) in OVERLAYS.iter().enumerate() {
             let mut on = overlays.contains(overlay.id);
             if ui.checkbox(&mut on, overlay.label).on_hover_text(overlay.help).changed() {
-                context.outbox.command(Command::ToggleOverlay(index));
+                context.outbox.command(ViewCommand::ToggleOverlay(index));
             }
         }
     });

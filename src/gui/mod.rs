@@ -7,6 +7,7 @@ mod badge;
 mod colors;
 mod context;
 mod dialogs;
+mod dock;
 mod error;
 mod events;
 mod icons;

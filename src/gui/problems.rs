@@ -7,7 +7,7 @@ use super::colors::tones;
 use super::context::{AppContext, Message};
 use super::theme::ROW_HEIGHT;
 use super::widgets::{cell, mono, severity_icon};
-use crate::editor::{Action, Command, Fix, Problem, ProblemSource};
+use crate::editor::{Action, Fix, Problem, ProblemSource, SessionCommand};
 use crate::scene::Severity;
 
 /// Keeps the list, which is made again only when document or frame changed.
@@ -35,6 +35,18 @@ impl Problems {
         self.list.len() - self.errors()
     }
 
+    /// What the panel is called, with how much is wrong.
+    pub fn title(&self) -> String {
+        let counted = |count: usize, what: &str| match count {
+            0 => None,
+            1 => Some(format!("1 {what}")),
+            _ => Some(format!("{count} {what}s")),
+        };
+        let counts = [counted(self.errors(), "error"), counted(self.warnings(), "warning")];
+        let counts: Vec<String> = counts.into_iter().flatten().collect();
+        if counts.is_empty() { "Problems".to_owned() } else { format!("Problems ({})", counts.join(", ")) }
+    }
+
     pub fn show(&mut self, ui: &mut Ui, context: &AppContext<'_>) {
         if self.list.is_empty() {
             ui.add_space(8.0);
@@ -48,6 +60,7 @@ impl Problems {
             .id_salt("problems")
             .striped(true)
             .sense(Sense::click())
+            .min_scrolled_height(0.0)
             .column(Column::exact(18.0))
             .column(Column::initial(64.0).resizable(true))
             .column(Column::initial(110.0).resizable(true).clip(true))
@@ -115,7 +128,7 @@ fn fix_button(ui: &mut Ui, context: &AppContext<'_>, problem: &Problem) {
     if ui.small_button(fix.label()).on_hover_text(fix.help()).clicked() {
         match fix {
             Fix::Mend(mend) => context.outbox.act(Action::Mend(mend)),
-            Fix::Reset => context.outbox.command(Command::Reset),
+            Fix::Reset => context.outbox.command(SessionCommand::Reset),
         }
     }
 }

@@ -3,7 +3,7 @@
 use egui::{Event, Modifiers};
 
 use super::context::Outbox;
-use crate::editor::{Action, COMMANDS, Command, Key, Shortcut};
+use crate::editor::{Action, COMMANDS, Command, Key, SessionCommand, Shortcut};
 
 /// Sends the commands whose keys were pressed in this turn.
 ///
@@ -17,8 +17,8 @@ pub fn collect(ctx: &egui::Context, outbox: &Outbox, view_focused: bool, was_typ
         let mut found = Vec::new();
         for event in &input.events {
             match event {
-                Event::Copy if !typing => found.push(Command::Copy),
-                Event::Cut if !typing => found.push(Command::Cut),
+                Event::Copy if !typing => found.push(SessionCommand::Copy.into()),
+                Event::Cut if !typing => found.push(SessionCommand::Cut.into()),
                 Event::Paste(text) if !typing => {
                     pasted = Some(text.clone());
                     in_place = input.modifiers.shift;
@@ -44,12 +44,14 @@ pub fn collect(ctx: &egui::Context, outbox: &Outbox, view_focused: bool, was_typ
 fn repeats(command: Command) -> bool {
     matches!(
         command,
-        Command::StepForward
-            | Command::StepBack
-            | Command::NextEvent
-            | Command::EventBack
-            | Command::Undo
-            | Command::Redo
+        Command::Session(
+            SessionCommand::StepForward
+                | SessionCommand::StepBack
+                | SessionCommand::NextEvent
+                | SessionCommand::EventBack
+                | SessionCommand::Undo
+                | SessionCommand::Redo
+        )
     )
 }
 

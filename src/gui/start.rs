@@ -3,7 +3,7 @@
 use egui::{Align2, RichText, Ui};
 
 use super::context::AppContext;
-use crate::editor::{Command, SAMPLES, SampleGroup, Session};
+use crate::editor::{SAMPLES, SampleGroup, Session, SessionCommand};
 use crate::scene::shown_path;
 
 /// Whether there is nothing to lose and nothing to see yet.
@@ -29,7 +29,7 @@ pub fn show(ctx: &egui::Context, area: egui::Rect, context: &AppContext<'_>) -> 
                 ui.add_space(8.0);
                 ui.horizontal(|ui| {
                     if ui.button("Open…").on_hover_text("Opens a scene file (Ctrl+O)").clicked() {
-                        context.outbox.command(Command::Open);
+                        context.outbox.command(SessionCommand::Open);
                     }
                     let empty = ui.button("Empty scene");
                     if empty.on_hover_text("Closes this card; add bodies from the Add menu").clicked() {
@@ -52,7 +52,7 @@ fn samples(ui: &mut Ui, context: &AppContext<'_>) {
         let introductions = SAMPLES.iter().enumerate();
         for (index, sample) in introductions.filter(|(_, sample)| sample.group == SampleGroup::Introduction) {
             if ui.link(sample.title).clicked() {
-                context.outbox.command(Command::OpenSample(index));
+                context.outbox.command(SessionCommand::OpenSample(index));
             }
             ui.label(RichText::new(sample.shows).weak());
             ui.end_row();
@@ -71,7 +71,7 @@ fn recent(ui: &mut Ui, context: &AppContext<'_>) {
     for (index, path) in recent.iter().take(5).enumerate() {
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
         if ui.link(name.as_ref()).on_hover_text(shown_path(path)).clicked() {
-            context.outbox.command(Command::OpenRecent(index));
+            context.outbox.command(SessionCommand::OpenRecent(index));
         }
     }
     ui.add_space(4.0);

@@ -8,28 +8,28 @@ use super::inspector::number::{Number, number, single};
 use super::viewport::Layout;
 use super::widgets::{command_button, icon_button, severity_icon};
 use super::{icons, lag, numbers};
-use crate::editor::{self, Action, Command, Shared};
+use crate::editor::{self, Action, Addition, SessionCommand, Shared, ViewCommand};
 use crate::record::RunState;
 use crate::scene::Edit;
 use crate::sim::Method;
 
-const TRANSPORT: [Command; 7] = [
-    Command::Reset,
-    Command::StepBack,
-    Command::EventBack,
-    Command::PlayPause,
-    Command::NextEvent,
-    Command::FinishStep,
-    Command::StepForward,
+const TRANSPORT: [SessionCommand; 7] = [
+    SessionCommand::Reset,
+    SessionCommand::StepBack,
+    SessionCommand::EventBack,
+    SessionCommand::PlayPause,
+    SessionCommand::NextEvent,
+    SessionCommand::FinishStep,
+    SessionCommand::StepForward,
 ];
 
-const ADDITIONS: [Command; 6] = [
-    Command::AddSphereDynamic,
-    Command::AddSphereStatic,
-    Command::AddPlane,
-    Command::AddGravityPlane,
-    Command::AddGravityPoint,
-    Command::AddDrag,
+const ADDITIONS: [SessionCommand; 6] = [
+    SessionCommand::Add(Addition::SphereDynamic),
+    SessionCommand::Add(Addition::SphereStatic),
+    SessionCommand::Add(Addition::Plane),
+    SessionCommand::Add(Addition::GravityPlane),
+    SessionCommand::Add(Addition::GravityPoint),
+    SessionCommand::Add(Addition::Drag),
 ];
 
 /// Speeds offered by name; any other is reached with + and -.
@@ -45,6 +45,9 @@ const SPEEDS: [(f64, &str); 9] = [
     (64.0, "64 ×"),
 ];
 
+/// Room in which everything has its place, points.
+const WIDE: f32 = 1070.0;
+
 /// Keeps what is being typed into Δt.
 #[derive(Default)]
 pub struct Transport {
@@ -54,6 +57,8 @@ pub struct Transport {
 
 impl Transport {
     pub fn show(&mut self, ui: &mut Ui, context: &AppContext<'_>, layout: Layout, snapping: bool) {
+        // the scene's time speed is in the inspector too
+        let wide = ui.available_width() > WIDE;
         ui.horizontal_centered(|ui| {
             ui.spacing_mut().item_spacing.x = 3.0;
             for command in TRANSPORT {
@@ -65,8 +70,10 @@ impl Transport {
             method_menu(ui, context);
             ui.add_space(6.0);
             speed_menu(ui, context);
-            ui.add_space(6.0);
-            time_speed(ui, context);
+            if wide {
+                ui.add_space(6.0);
+                time_speed(ui, context);
+            }
             ui.add_space(8.0);
             state(ui, context);
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
@@ -75,8 +82,8 @@ impl Transport {
                 ui.separator();
                 ADDITIONS.iter().rev().for_each(|command| command_button(ui, context, *command));
                 ui.separator();
-                command_button(ui, context, Command::Redo);
-                command_button(ui, context, Command::Undo);
+                command_button(ui, context, SessionCommand::Redo);
+                command_button(ui, context, SessionCommand::Undo);
                 ui.separator();
             });
         });
@@ -213,28 +220,28 @@ fn state(ui: &mut Ui, context: &AppContext<'_>) {
         let help = "The scene was edited in a way that the running simulation cannot take: positions, \
                     velocities, new moving bodies, map or settings. Reset starts the edited scene (R).";
         if ui.add(button).on_hover_text(help).clicked() {
-            context.outbox.command(Command::Reset);
+            context.outbox.command(SessionCommand::Reset);
         }
     }
 }
 
 /// Pressed in while dragged bodies snap.
 fn snap_button(ui: &mut Ui, context: &AppContext<'_>, snapping: bool) {
-    let Some(info) = editor::info(Command::ToggleSnapping) else { return };
+    let Some(info) = editor::info(ViewCommand::ToggleSnapping) else { return };
     let response = icon_button(ui, info.label, snapping, |painter, square, color| {
-        icons::paint(painter, square, Command::ToggleSnapping, color);
+        icons::paint(painter, square, ViewCommand::ToggleSnapping.into(), color);
     });
     let state = if snapping { "on" } else { "off" };
     if response.on_hover_text(format!("{}\nNow {state}.", info.tooltip(context.session))).clicked() {
-        context.outbox.command(Command::ToggleSnapping);
+        context.outbox.command(ViewCommand::ToggleSnapping);
     }
 }
 
 fn view_buttons(ui: &mut Ui, context: &AppContext<'_>, layout: Layout) {
     let choices = [
-        (Command::ShowFourViews, Layout::Four, 4),
-        (Command::ShowTwoViews, Layout::Two, 2),
-        (Command::ShowOneView, Layout::One, 1),
+        (ViewCommand::FourViews, Layout::Four, 4),
+        (ViewCommand::TwoViews, Layout::Two, 2),
+        (ViewCommand::OneView, Layout::One, 1),
     ];
     for (command, of, panes) in choices {
         let Some(info) = editor::info(command) else { continue };

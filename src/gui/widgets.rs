@@ -5,7 +5,7 @@ use egui::{Color32, Rect, Response, RichText, Role, Sense, Ui, WidgetInfo, vec2}
 use super::colors::tones;
 use super::context::AppContext;
 use super::icons;
-use crate::editor::{self, Command};
+use crate::editor::{self, Command, SessionCommand};
 
 /// Side of a tool bar button, points.
 pub const TOOL_SIZE: f32 = 26.0;
@@ -55,10 +55,11 @@ pub fn name_button(ui: &Ui, response: &Response, name: &str, selected: bool) {
 }
 
 /// A tool bar button of a command: its icon, its tooltip, and why it is disabled.
-pub fn command_button(ui: &mut Ui, context: &AppContext<'_>, command: Command) {
+pub fn command_button(ui: &mut Ui, context: &AppContext<'_>, command: impl Into<Command>) {
+    let command = command.into();
     let Some(info) = editor::info(command) else { return };
     let enabled = (info.enabled)(context.session).is_ok();
-    let pause = command == Command::PlayPause && context.session.is_busy();
+    let pause = command == SessionCommand::PlayPause.into() && context.session.is_busy();
     let name = if pause { "Pause" } else { info.label };
     let response = ui
         .add_enabled_ui(enabled, |ui| {

@@ -1,5 +1,7 @@
 //! What can be asked of a runner.
 
+use std::sync::Arc;
+
 use crate::scene::Scene;
 use crate::sim::{Method, SimEdit};
 
@@ -8,7 +10,7 @@ use crate::sim::{Method, SimEdit};
 #[derive(Clone, Debug)]
 pub enum RunCommand {
     /// Compiles a scene and goes to its start. Forgets recorded edits.
-    Load(Box<Scene>),
+    Load(Arc<Scene>),
     /// Drops the simulation: the scene has errors.
     Unload,
     /// Back to the start of the loaded scene.
@@ -40,6 +42,6 @@ pub enum RunCommand {
     GoTo {
         event: u64,
     },
-    /// Changes the running scene now.
-    Edit(Box<SimEdit>),
+    /// Changes the running scene now; several changes are one edit to go back over.
+    Edit(Vec<SimEdit>),
 }

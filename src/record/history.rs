@@ -32,10 +32,11 @@ pub(super) struct Keyframe {
     edits: usize,
 }
 
+/// Edits made together.
 #[derive(Clone, Debug)]
-pub(super) struct RecordedEdit {
+pub(super) struct RecordedEdits {
     pub(super) at: Moment,
-    pub(super) edit: SimEdit,
+    pub(super) edits: Vec<SimEdit>,
 }
 
 /// End of a Δt, with the grid as it stands there.
@@ -54,7 +55,7 @@ pub(super) struct History {
     event_times: Vec<f64>,
     first_event: u64,
     /// In the order of their stamps.
-    edits: Vec<RecordedEdit>,
+    edits: Vec<RecordedEdits>,
     /// How many of them the simulation has behind it now.
     applied: usize,
 }
@@ -124,11 +125,17 @@ impl History {
         0
     }
 
-    /// Records an edit made now. What was recorded for later is another future and is forgotten.
-    pub(super) fn note_edit(&mut self, simulation: &Simulation, grid: StepGrid, event: u64, edit: &SimEdit) {
+    /// Records edits made now. What was recorded for later is another future and is forgotten.
+    pub(super) fn note_edits(
+        &mut self,
+        simulation: &Simulation,
+        grid: StepGrid,
+        event: u64,
+        edits: Vec<SimEdit>,
+    ) {
         let at = Moment { event, time: simulation.time() };
         self.forget_after(at);
-        self.edits.push(RecordedEdit { at, edit: edit.clone() });
+        self.edits.push(RecordedEdits { at, edits });
         self.applied = self.edits.len();
         self.keep(simulation, grid, at);
     }
@@ -193,7 +200,7 @@ impl History {
     }
 
     /// The next recorded edit, if it was made not after this event and time; it counts as applied.
-    pub(super) fn take_due_edit(&mut self, last_event: u64, now: f64) -> Option<RecordedEdit> {
+    pub(super) fn take_due_edits(&mut self, last_event: u64, now: f64) -> Option<RecordedEdits> {
         let next = self.edits.get(self.applied)?;
         if next.at.event > last_event || next.at.time > now {
             return None;

@@ -70,7 +70,7 @@ impl RunRecorder {
             RunCommand::Method(_) => {}
             RunCommand::Pause => self.stop(),
             // One that is made while going back is meant for where that leads to.
-            RunCommand::Edit(edit) if !self.goes_back() => self.edit(&edit),
+            RunCommand::Edit(edits) if !self.goes_back() => self.edit(edits),
             other => {
                 if matches!(self.task, Task::Play { .. }) {
                     self.task = Task::Idle;
@@ -206,7 +206,7 @@ impl RunRecorder {
             RunCommand::GoTo { event } => {
                 self.task = run.back_to_event(event).map_or(Task::Idle, Task::Back);
             }
-            RunCommand::Edit(edit) => run.edit(&edit),
+            RunCommand::Edit(edits) => run.edit(edits),
             RunCommand::Step { .. } | RunCommand::NextEvent { .. } | RunCommand::Play { .. } => {
                 run.message = Some("Δt and speed must be above zero".into());
             }
@@ -220,7 +220,7 @@ impl RunRecorder {
         self.waiting.clear();
     }
 
-    fn load(&mut self, scene: Box<Scene>) {
+    fn load(&mut self, scene: Arc<Scene>) {
         self.stop();
         match Simulation::with_method(&scene, self.method) {
             Ok(simulation) => {
@@ -240,9 +240,9 @@ impl RunRecorder {
         }
     }
 
-    fn edit(&mut self, edit: &SimEdit) {
+    fn edit(&mut self, edits: Vec<SimEdit>) {
         if let Some(run) = &mut self.run {
-            run.edit(edit);
+            run.edit(edits);
         }
     }
 }

@@ -155,7 +155,7 @@ mod tests {
             simulation.add_force(force).unwrap();
         }
         let mut recorder = RunRecorder::default();
-        recorder.run = Some(Run::new(simulation, Box::new(scene)));
+        recorder.run = Some(Run::new(simulation, Arc::new(scene)));
         recorder
     }
 
@@ -195,7 +195,7 @@ mod tests {
         let run = recorder.run.as_mut().unwrap();
         let unknown = SimEdit::Remove(NodeKey(u32::MAX.into()));
         let reason = run.simulation.apply(&unknown).unwrap_err().to_string();
-        run.history.note_edit(&run.simulation, run.grid, run.last_event, &unknown);
+        run.history.note_edits(&run.simulation, run.grid, run.last_event, vec![unknown]);
 
         (0..2).for_each(|_| drop(frame_after(&mut recorder, RunCommand::StepBack)));
         let again = frame_after(&mut recorder, RunCommand::Step { dt: 0.25, count: 2 });
@@ -247,7 +247,7 @@ mod tests {
         recorder.command(RunCommand::StepBack);
         assert!(recorder.work(1));
         let key = last.bodies[0].key;
-        let frame = frame_after(&mut recorder, RunCommand::Edit(Box::new(SimEdit::Remove(key))));
+        let frame = frame_after(&mut recorder, RunCommand::Edit(vec![SimEdit::Remove(key)]));
         assert_eq!((frame.time, frame.bodies.len() + 1), (1.75, last.bodies.len()));
     }
 }

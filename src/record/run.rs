@@ -20,7 +20,7 @@ pub(super) const PREDICTIONS: u32 = 16;
 #[derive(Debug)]
 pub(super) struct Run {
     pub(super) simulation: Simulation,
-    pub(super) scene: Box<Scene>,
+    pub(super) scene: Arc<Scene>,
     pub(super) grid: StepGrid,
     pub(super) rows: Rows,
     pub(super) history: History,
@@ -52,7 +52,7 @@ pub(super) enum Slice {
 }
 
 impl Run {
-    pub(super) fn new(simulation: Simulation, scene: Box<Scene>) -> Self {
+    pub(super) fn new(simulation: Simulation, scene: Arc<Scene>) -> Self {
         let history = History::new(&simulation, StepGrid::new());
         Self {
             worst_overlap: simulation.worst_overlap(),
@@ -110,12 +110,14 @@ impl Run {
 
     /// Applies the recorded edits that were made right here.
     pub(super) fn apply_due_edits(&mut self) {
-        while let Some(due) = self.history.take_due_edit(self.last_event, self.simulation.time()) {
+        while let Some(due) = self.history.take_due_edits(self.last_event, self.simulation.time()) {
             // It was accepted in this very state before: a refusal means that the run is no longer the same.
-            if let Err(refused) = self.simulation.apply(&due.edit) {
-                let time = due.at.time;
-                self.message =
-                    Some(format!("the edit made at {time} s was refused when run again: {refused}"));
+            for edit in &due.edits {
+                if let Err(refused) = self.simulation.apply(edit) {
+                    let time = due.at.time;
+                    self.message =
+                        Some(format!("the edit made at {time} s was refused when run again: {refused}"));
+                }
             }
         }
     }
@@ -161,18 +163,21 @@ impl Run {
         self.worst_overlap = self.worst_overlap.max(self.simulation.worst_overlap());
     }
 
-    /// Changes the scene now, between events, and records it with the time it was stamped with.
-    pub(super) fn edit(&mut self, edit: &SimEdit) {
-        match self.simulation.apply(edit) {
-            Ok(()) => {
-                self.history.note_edit(&self.simulation, self.grid, self.last_event, edit);
-                self.message = None;
-                self.faulted = false;
-            }
+    /// Changes the scene now, between events, and records what was accepted with the time it was stamped with.
+    pub(super) fn edit(&mut self, mut edits: Vec<SimEdit>) {
+        let mut refusal = None;
+        edits.retain(|edit| match self.simulation.apply(edit) {
+            Ok(()) => true,
             Err(refused) => {
-                self.message = Some(format!("the running simulation refused the edit: {refused}"));
+                refusal = Some(format!("the running simulation refused the edit: {refused}"));
+                false
             }
+        });
+        if !edits.is_empty() {
+            self.history.note_edits(&self.simulation, self.grid, self.last_event, edits);
+            self.faulted = false;
         }
+        self.message = refusal;
     }
 }
 

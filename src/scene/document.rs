@@ -11,7 +11,8 @@ use super::locate::Index;
 use super::read::{self, Meaning};
 use super::rules::MAX_FILE_BYTES;
 use super::source::{Source, position_in};
-use super::tree::{Children, View};
+use super::tree::{Children, View, tag};
+use super::viewpoint::{self, Viewpoint};
 use super::{Diagnostic, NodeKey, NumberStyle, Scene, Severity, locate, parse, save, shown, write};
 
 /// A scene file in memory. Immutable: an edit gives a new document that shares what did not change,
@@ -119,6 +120,17 @@ impl Document {
     /// Why the file is Version 1.1: the new physics it uses, such as `SpaceAverse`. Empty for 1.0.
     pub fn reasons_for_1_1(&self) -> Vec<String> {
         self.meaning().features.used().map(|(name, ..)| name.to_owned()).collect()
+    }
+
+    /// The viewpoints saved with the scene, in the order in which they were saved.
+    pub fn viewpoints(&self) -> Vec<Viewpoint> {
+        let Content::Tree(top) = &self.content else { return Vec::new() };
+        let root = locate::root(top, &self.source.text);
+        let written = root.and_then(|root| {
+            let instruction = root.raws().find(|raw| read::is_cosmetic(raw))?;
+            quick_xml::escape::unescape(tag::find(instruction, viewpoint::ATTRIBUTE)?.raw).ok()
+        });
+        written.map(|text| viewpoint::read(&text)).unwrap_or_default()
     }
 
     /// The file's bytes: in the encoding and with the line ends it came with.

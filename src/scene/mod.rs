@@ -18,13 +18,14 @@ mod save;
 mod source;
 mod tree;
 mod types;
+mod viewpoint;
 mod write;
 
 use diagnostic::shown;
 
 pub use diagnostic::{Diagnostic, Severity, escaped, shown_path};
 pub use document::Document;
-pub use edit::{BodyChange, BodyCopy, Edit, EditError, Edited, ForceChange};
+pub use edit::{BodyChange, BodyCopy, Edit, EditError, Edited, ForceChange, Touched};
 pub use names::Names;
 pub use number::NumberStyle;
 pub use params::{PARAMS, ParamInfo, SimParams};
@@ -32,3 +33,4 @@ pub use save::{
     FileId, FileStamp, canonical_target, check_writable, same_file, write_atomically, write_private,
 };
 pub use types::{Body, Force, ForceKind, Map, Motion, NodeKey, Scene, Shape, rotation_matrix};
+pub use viewpoint::Viewpoint;

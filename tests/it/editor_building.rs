@@ -2,7 +2,7 @@
 
 use glam::{DVec3, dvec3};
 use polyscene::design::{Eye, Formula, Mend, TOOLS, gap, troubles};
-use polyscene::editor::{Action, BODY_FIELDS, Command, Fix, Outcome, Request, Typed};
+use polyscene::editor::{Action, BODY_FIELDS, Fix, Outcome, Request, SessionCommand, Typed};
 use polyscene::scene::{Body, BodyChange, Edit, NodeKey, Scene};
 
 use super::editor_support::{Bench, BodyNumbers as _};
@@ -51,7 +51,7 @@ fn copies_of_a_row_are_free_and_go_on_by_the_same_step() {
     let row: Vec<NodeKey> = bench.scene().bodies.iter().map(|body| body.key).collect();
     bench.select(&row);
     for copies in 1..=3 {
-        assert_eq!(bench.run(Command::Duplicate), Outcome::Done);
+        assert_eq!(bench.run(SessionCommand::Duplicate), Outcome::Done);
         let bodies = &bench.scene().bodies;
         assert_eq!(bodies.len(), 5 * (copies + 1));
         assert_eq!(bodies[..5].iter().map(|body| body.key).collect::<Vec<_>>(), row, "originals stay first");
@@ -71,14 +71,14 @@ fn copies_of_a_row_are_free_and_go_on_by_the_same_step() {
 fn a_step_made_by_hand_goes_on() {
     let mut bench = Bench::open();
     bench.select(&[bench.key(7)]);
-    bench.run(Command::Duplicate);
+    bench.run(SessionCommand::Duplicate);
     let copy = bench.session.selection().keys()[0];
     let by_hand = bench.body(7).position + dvec3(0.0, 2.0, 1.5);
     bench.edit(Edit::Body { key: copy, change: BodyChange::Position(by_hand) });
-    bench.run(Command::Duplicate);
+    bench.run(SessionCommand::Duplicate);
     assert_eq!(bench.selected()[0].position, by_hand + dvec3(0.0, 2.0, 1.5));
     bench.select(&[bench.key(7)]);
-    bench.run(Command::Duplicate);
+    bench.run(SessionCommand::Duplicate);
     let place = bench.selected()[0].position;
     assert!((place - bench.body(7).position).length() < 2.0, "another selection begins anew: {place}");
 }
@@ -90,7 +90,7 @@ fn a_copied_floor_lies_off_its_original_and_clear_of_what_lies_on_it() {
     bench.build("rack", &[]);
     let floor = bench.scene().bodies[0].key;
     bench.select(&[floor]);
-    bench.run(Command::Duplicate);
+    bench.run(SessionCommand::Duplicate);
     let copy = bench.selected()[0];
     assert_eq!(copy.name.as_deref(), Some("floor 2"));
     assert_ne!(copy.position, bench.scene().bodies[0].position);
@@ -102,13 +102,13 @@ fn pasting_finds_a_free_place_and_in_place_does_not() {
     let mut bench = Bench::open();
     bench.change(8, BodyChange::Name(Some("ball".into())));
     bench.select(&[bench.key(8)]);
-    bench.run(Command::Copy);
+    bench.run(SessionCommand::Copy);
     let requests = bench.session.take_requests();
     let [Request::SetClipboard(text)] = &requests[..] else { panic!("{requests:?}") };
     assert_eq!(bench.act(Action::Paste(text.clone())), Outcome::Done);
     assert_eq!(bench.selected()[0].name.as_deref(), Some("ball 2"));
     assert!(gap(bench.selected()[0], bench.body(8)).unwrap().distance > 0.0);
-    bench.run(Command::PasteInPlace);
+    bench.run(SessionCommand::PasteInPlace);
     assert_eq!(bench.session.take_requests(), [Request::ReadClipboard]);
     bench.act(Action::Paste(text.clone()));
     assert_eq!(bench.selected()[0].position, bench.body(8).position);
@@ -123,7 +123,7 @@ fn a_tool_is_one_step_and_selects_what_it_made() {
     bench.build("rack", &[]);
     assert_eq!(bench.session.selection().len(), 15);
     assert_eq!(bench.session.undo_label(), Some("Add a rack"));
-    bench.run(Command::Undo);
+    bench.run(SessionCommand::Undo);
     assert_eq!(bench.bytes(), before);
     bench.select(&[bench.key(7)]);
     assert_eq!(bench.act(Action::UseTool(tool("select_same_kind"))), Outcome::Done);
@@ -165,7 +165,7 @@ fn troubles_are_listed_as_one_designs_and_mended_by_undoable_steps() {
     assert_eq!(bench.act(Action::Mend(mend)), Outcome::Done);
     assert!(bench.session.problems().is_empty());
     assert_eq!(bench.session.undo_label(), Some("Push 7 and 8 apart"));
-    bench.run(Command::Undo);
+    bench.run(SessionCommand::Undo);
     assert_eq!(bench.bytes(), before);
     bench.edit(Edit::MapTiles([200, 400, 200]));
     let problems = bench.session.problems();
@@ -200,14 +200,14 @@ fn what_the_compiler_finds_again_is_told_once() {
 fn groups_are_made_and_left_by_command() {
     let mut bench = Bench::open();
     bench.select(&[bench.key(7), bench.force(1).key]);
-    assert_eq!(bench.run(Command::Group), Outcome::Done);
+    assert_eq!(bench.run(SessionCommand::Group), Outcome::Done);
     assert_eq!(bench.body(7).group.as_deref(), Some("group"));
     assert_eq!(bench.force(1).group.as_deref(), Some("group"));
     assert!(bench.bytes().contains("<?polyscene group=\"group\"?>"));
     assert_eq!(bench.sent(), [""; 0], "a simulation does not care");
-    assert_eq!(bench.run(Command::Ungroup), Outcome::Done);
+    assert_eq!(bench.run(SessionCommand::Ungroup), Outcome::Done);
     assert_eq!(bench.body(7).group, None);
-    assert!(matches!(bench.run(Command::Ungroup), Outcome::Refused(_)));
+    assert!(matches!(bench.run(SessionCommand::Ungroup), Outcome::Refused(_)));
 }
 
 /// Symptom: a thesis method chosen in one scene went on in the next. Expected: each begins with the exact one.
@@ -215,9 +215,9 @@ fn groups_are_made_and_left_by_command() {
 fn another_scene_starts_with_the_exact_method() {
     let mut bench = Bench::open();
     bench.act(Action::SetMethod(polyscene::sim::Method::Thesis));
-    bench.run(Command::Reload);
+    bench.run(SessionCommand::Reload);
     assert_eq!(bench.session.playback().method(), polyscene::sim::Method::Thesis, "the same scene keeps it");
-    bench.run(Command::OpenSample(0));
+    bench.run(SessionCommand::OpenSample(0));
     assert_eq!(bench.session.playback().method(), polyscene::sim::Method::Exact);
 }
 

@@ -3,12 +3,14 @@
 use std::path::Path;
 use std::time::Duration;
 
-use polyscene::editor::{Action, Answer, Command, Outcome, Question, Request, SAMPLES, SampleGroup};
+use polyscene::editor::{
+    Action, Addition, Answer, Outcome, Question, Request, SAMPLES, SampleGroup, SessionCommand,
+};
 use polyscene::scene::BodyChange;
 
 use super::editor_support::{Bench, BodyNumbers, SCENE};
 
-const COMMA: Command = Command::New(polyscene::scene::NumberStyle::Comma);
+const COMMA: SessionCommand = SessionCommand::New(polyscene::scene::NumberStyle::Comma);
 
 fn dirty() -> Bench {
     let mut bench = Bench::open();
@@ -20,9 +22,9 @@ fn dirty() -> Bench {
 fn open_edit_save_changes_only_what_was_edited() {
     let mut bench = Bench::open();
     assert_eq!(bench.session.title(), "scene.xml");
-    assert!(matches!(bench.run(Command::Save), Outcome::Refused(_)), "there is nothing to save");
+    assert!(matches!(bench.run(SessionCommand::Save), Outcome::Refused(_)), "there is nothing to save");
     bench.change(7, BodyChange::Mass(3.0));
-    assert_eq!(bench.run(Command::Save), Outcome::Done);
+    assert_eq!(bench.run(SessionCommand::Save), Outcome::Done);
     let written = std::fs::read_to_string(bench.session.path().unwrap()).unwrap();
     assert_eq!(written, SCENE.replacen("<Weight F32=\"1\" />", "<Weight F32=\"3\" />", 1));
     assert!(!bench.session.is_dirty());
@@ -32,8 +34,8 @@ fn open_edit_save_changes_only_what_was_edited() {
 fn a_scene_without_a_file_asks_where_to_save() {
     let mut bench = Bench::new();
     bench.run(COMMA);
-    bench.run(Command::AddSphereDynamic);
-    bench.run(Command::Save);
+    bench.run(SessionCommand::Add(Addition::SphereDynamic));
+    bench.run(SessionCommand::Save);
     let requests = bench.session.take_requests();
     assert_eq!(requests, [Request::ChooseSavePath { directory: None, file_name: "Untitled.xml".into() }]);
     let path = bench.folder.path().join("mine");
@@ -47,7 +49,7 @@ fn a_scene_without_a_file_asks_where_to_save() {
 fn a_name_without_extension_never_replaces_a_file_that_no_dialog_asked_about() {
     let mut bench = dirty();
     bench.file("other.xml", "precious");
-    bench.run(Command::SaveAs);
+    bench.run(SessionCommand::SaveAs);
     bench.act(Action::SaveTo(bench.folder.path().join("other")));
     assert_eq!(std::fs::read_to_string(bench.folder.path().join("other.xml")).unwrap(), "precious");
     assert_eq!(bench.session.title(), "other");
@@ -55,8 +57,8 @@ fn a_name_without_extension_never_replaces_a_file_that_no_dialog_asked_about() {
 
 #[test]
 fn what_would_lose_changes_asks_first() {
-    let reload = Command::Reload;
-    for command in [COMMA, Command::OpenSample(0), reload, Command::Quit] {
+    let reload = SessionCommand::Reload;
+    for command in [COMMA, SessionCommand::OpenSample(0), reload, SessionCommand::Quit] {
         let mut bench = dirty();
         bench.run(command);
         let question = bench.session.question().cloned().expect("a question");
@@ -69,7 +71,7 @@ fn what_would_lose_changes_asks_first() {
         assert!(bench.session.take_requests().is_empty());
     }
     let mut bench = Bench::open();
-    bench.run(Command::Quit);
+    bench.run(SessionCommand::Quit);
     assert!(bench.session.question().is_none(), "nothing would be lost");
     assert_eq!(bench.session.take_requests(), [Request::Quit]);
 }
@@ -78,7 +80,7 @@ fn what_would_lose_changes_asks_first() {
 fn discard_goes_on_and_leaves_the_file_alone() {
     let mut bench = dirty();
     let path = bench.session.path().unwrap().to_owned();
-    bench.run(Command::Reload);
+    bench.run(SessionCommand::Reload);
     bench.act(Action::Answer(Answer::Discard));
     assert_eq!(bench.body(7).mass(), Some(1.0));
     assert_eq!(std::fs::read_to_string(path).unwrap(), SCENE);
@@ -89,7 +91,7 @@ fn discard_goes_on_and_leaves_the_file_alone() {
 fn save_saves_and_then_goes_on() {
     let mut bench = dirty();
     let path = bench.session.path().unwrap().to_owned();
-    bench.run(Command::Quit);
+    bench.run(SessionCommand::Quit);
     bench.act(Action::Answer(Answer::Save));
     assert!(std::fs::read_to_string(path).unwrap().contains("<Weight F32=\"3\" />"));
     assert_eq!(bench.session.take_requests(), [Request::Quit]);
@@ -99,15 +101,15 @@ fn save_saves_and_then_goes_on() {
 fn save_of_a_scene_without_a_file_goes_on_after_the_dialog_or_not_at_all() {
     for (saved, expected) in [(true, vec![Request::Quit]), (false, vec![])] {
         let mut bench = Bench::new();
-        bench.run(Command::AddSphereStatic);
-        bench.run(Command::Quit);
+        bench.run(SessionCommand::Add(Addition::SphereStatic));
+        bench.run(SessionCommand::Quit);
         bench.act(Action::Answer(Answer::Save));
         assert!(matches!(bench.session.take_requests()[..], [Request::ChooseSavePath { .. }]));
         let path = bench.folder.path().join("new.xml");
         bench.act(if saved { Action::SaveTo(path) } else { Action::DialogCancelled });
         assert_eq!(bench.session.take_requests(), expected);
         // the cancelled quit must not happen at a later save
-        bench.run(Command::AddPlane);
+        bench.run(SessionCommand::Add(Addition::Plane));
         bench.act(Action::SaveTo(bench.folder.path().join("later.xml")));
         assert!(bench.session.take_requests().is_empty());
     }
@@ -116,7 +118,7 @@ fn save_of_a_scene_without_a_file_goes_on_after_the_dialog_or_not_at_all() {
 #[test]
 fn a_save_that_fails_says_so_and_does_not_go_on() {
     let mut bench = dirty();
-    bench.run(Command::SaveAs);
+    bench.run(SessionCommand::SaveAs);
     bench.act(Action::SaveTo(bench.folder.path().join("missing/folder/scene.xml")));
     assert!(bench.notices().contains("cannot be saved"));
     assert!(bench.session.is_dirty());
@@ -126,7 +128,7 @@ fn a_save_that_fails_says_so_and_does_not_go_on() {
 #[test]
 fn an_answer_that_was_not_offered_changes_nothing() {
     let mut bench = dirty();
-    bench.run(Command::Quit);
+    bench.run(SessionCommand::Quit);
     let question = bench.session.question().cloned();
     bench.act(Action::Answer(Answer::Overwrite));
     assert_eq!(bench.session.question().cloned(), question);
@@ -142,18 +144,18 @@ fn a_file_that_changed_on_disk_is_not_overwritten_unasked() {
     let path = bench.session.path().unwrap().to_owned();
     // same length, and perhaps the same date
     std::fs::write(&path, SCENE.replace("the second", "the SECOND")).unwrap();
-    bench.run(Command::Save);
+    bench.run(SessionCommand::Save);
     assert!(matches!(bench.session.question(), Some(Question::ChangedOnDisk { .. })));
     assert!(std::fs::read_to_string(&path).unwrap().contains("SECOND"));
     bench.act(Action::Answer(Answer::Cancel));
     assert!(std::fs::read_to_string(&path).unwrap().contains("SECOND"));
     assert!(bench.session.is_dirty());
-    bench.run(Command::Save);
+    bench.run(SessionCommand::Save);
     bench.act(Action::Answer(Answer::Overwrite));
     assert!(!std::fs::read_to_string(&path).unwrap().contains("SECOND"));
     assert!(!bench.session.is_dirty());
     bench.change(7, BodyChange::Mass(5.0));
-    bench.run(Command::Save);
+    bench.run(SessionCommand::Save);
     assert!(bench.session.question().is_none(), "our own save is no change by another program");
 }
 
@@ -162,7 +164,7 @@ fn quitting_over_a_file_that_changed_asks_both_questions() {
     let mut bench = dirty();
     let path = bench.session.path().unwrap().to_owned();
     std::fs::write(&path, "something else").unwrap();
-    bench.run(Command::Quit);
+    bench.run(SessionCommand::Quit);
     bench.act(Action::Answer(Answer::Save));
     assert!(matches!(bench.session.question(), Some(Question::ChangedOnDisk { .. })));
     bench.act(Action::Answer(Answer::SaveAs));
@@ -183,13 +185,13 @@ fn a_change_on_disk_is_told_once() {
     assert!(bench.notices().contains("changed on the disk"));
     bench.act(Action::LookAtDisk);
     assert_eq!(bench.notices(), "");
-    bench.run(Command::Reload);
+    bench.run(SessionCommand::Reload);
     assert!(bench.bytes().contains("another"));
     std::fs::remove_file(&path).unwrap();
     bench.act(Action::LookAtDisk);
     assert!(bench.notices().contains("gone"));
     assert!(bench.session.is_dirty(), "what is nowhere on the disk is not saved");
-    bench.run(Command::Save);
+    bench.run(SessionCommand::Save);
     assert!(path.exists());
 }
 
@@ -197,13 +199,13 @@ fn a_change_on_disk_is_told_once() {
 fn a_file_that_cannot_be_read_leaves_everything_as_it_was() {
     let mut bench = dirty();
     let state = bench.session.document_state();
-    bench.run(Command::Undo);
+    bench.run(SessionCommand::Undo);
     for path in [bench.folder.path().join("nowhere.xml"), bench.folder.path().to_owned()] {
         bench.act(Action::OpenPath(path));
         assert!(bench.notices().contains("cannot be opened"));
         assert_eq!(bench.session.title(), "scene.xml");
     }
-    bench.run(Command::Redo);
+    bench.run(SessionCommand::Redo);
     assert_eq!(bench.session.document_state(), state);
 }
 
@@ -215,7 +217,12 @@ fn a_file_with_errors_opens_and_shows_them() {
         bench.act(Action::OpenPath(path));
         assert_eq!(bench.session.title(), "broken.xml", "{text}");
         assert!(bench.session.problems().iter().any(|p| p.severity == polyscene::scene::Severity::Error));
-        for command in [Command::SelectAll, Command::AddPlane, Command::Delete, Command::PlayPause] {
+        for command in [
+            SessionCommand::SelectAll,
+            SessionCommand::Add(Addition::Plane),
+            SessionCommand::Delete,
+            SessionCommand::PlayPause,
+        ] {
             assert!(matches!(bench.run(command), Outcome::Refused(_)), "{command:?} of {text:?}");
         }
         bench.wait(Duration::from_secs(60));
@@ -236,9 +243,9 @@ fn recent_files_are_newest_first_without_repeats_and_outlive_the_run() {
     let names: Vec<_> = again.session.settings().recent.iter().filter_map(|path| path.file_name()).collect();
     assert_eq!(names, ["a.xml", "b.xml"]);
     assert_eq!(again.session.playback().dt_text(), "1/200");
-    again.run(Command::OpenRecent(1));
+    again.run(SessionCommand::OpenRecent(1));
     assert_eq!(again.session.title(), "b.xml");
-    assert!(matches!(again.run(Command::OpenRecent(7)), Outcome::Refused(_)));
+    assert!(matches!(again.run(SessionCommand::OpenRecent(7)), Outcome::Refused(_)));
 }
 
 #[test]
@@ -273,12 +280,12 @@ fn every_scene_of_the_folder_is_a_sample_and_opens_without_errors() {
     }
     for (index, sample) in SAMPLES.iter().enumerate() {
         let mut bench = Bench::new();
-        bench.run(Command::OpenSample(index));
+        bench.run(SessionCommand::OpenSample(index));
         assert!(!bench.session.document().has_errors(), "{}", sample.id);
         assert_eq!(bench.session.document().to_bytes(), sample.bytes);
         assert!(!bench.session.is_dirty());
         assert_eq!(bench.session.path(), None, "saving must not write over the program's own scene");
-        bench.run(Command::Save);
+        bench.run(SessionCommand::Save);
         let file_name = format!("{}.xml", sample.id);
         assert_eq!(bench.session.take_requests(), [Request::ChooseSavePath { directory: None, file_name }]);
     }

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use glam::DVec3;
-use polyscene::editor::{Action, Command, Outcome};
+use polyscene::editor::{Action, Addition, Outcome, SessionCommand};
 use polyscene::record::{BodyFrame, RunState};
 use polyscene::scene::{BodyChange, Edit, ForceChange, ForceKind, SimParams};
 use polyscene::sim::{BodyState, ContactState, Simulation};
@@ -36,7 +36,7 @@ fn at_the_start_every_physical_edit_is_loaded_and_the_start_is_now() {
     assert_eq!(bench.loaded().unwrap().bodies[1].position.x, 4.0);
     assert_eq!(bench.sent(), ["Load"]);
     bench.change(7, BodyChange::Mass(3.0));
-    bench.run(Command::Undo);
+    bench.run(SessionCommand::Undo);
     assert_eq!(bench.sent(), ["Load", "Load"]);
     assert!(!bench.session.needs_reset());
 }
@@ -63,10 +63,10 @@ fn forces_statics_bounce_and_mass_apply_to_a_running_simulation() {
     bench.change(8, BodyChange::Bounce(0.75));
     bench.change(30, BodyChange::Bounce(0.5));
     bench.change(30, BodyChange::Position(DVec3::new(5.0, 1.0, 5.0)));
-    bench.run(Command::AddGravityPoint);
-    bench.run(Command::Delete);
-    bench.run(Command::AddPlane);
-    bench.run(Command::Delete);
+    bench.run(SessionCommand::Add(Addition::GravityPoint));
+    bench.run(SessionCommand::Delete);
+    bench.run(SessionCommand::Add(Addition::Plane));
+    bench.run(SessionCommand::Delete);
     assert_eq!(
         bench.sent(),
         [
@@ -97,11 +97,11 @@ fn the_core_takes_every_live_edit_and_then_equals_the_document() {
     bench.change(8, BodyChange::Bounce(0.75));
     bench.change(30, BodyChange::Bounce(0.5));
     bench.change(30, BodyChange::Rotation(DVec3::new(-1.5, 0.0, 0.0)));
-    bench.run(Command::AddGravityPoint);
-    bench.run(Command::AddDrag);
-    bench.run(Command::AddPlane);
+    bench.run(SessionCommand::Add(Addition::GravityPoint));
+    bench.run(SessionCommand::Add(Addition::Drag));
+    bench.run(SessionCommand::Add(Addition::Plane));
     bench.act(Action::Select(vec![bench.key(8)]));
-    bench.run(Command::Delete);
+    bench.run(SessionCommand::Delete);
     let edits = bench.sent_edits();
     assert_eq!(edits.len(), 9);
     for edit in edits {
@@ -140,7 +140,7 @@ fn undo_of_a_live_edit_is_a_live_edit() {
     let mut bench = Bench::open();
     bench.step();
     bench.change(7, BodyChange::Mass(3.0));
-    bench.run(Command::Undo);
+    bench.run(SessionCommand::Undo);
     assert_eq!(bench.sent(), ["Edit Mass", "Edit Mass"]);
     assert!(!bench.session.needs_reset());
 }
@@ -166,10 +166,10 @@ fn poses_velocities_map_and_settings_wait_for_a_reset_and_undo_takes_the_badge_a
         assert!(!bench.session.waits_for_reset(bench.key(30)));
         let seven = bench.session.scene().unwrap().bodies[1].key;
         assert_eq!(bench.session.waits_for_reset(seven), of_a_body, "{edit:?}");
-        bench.run(Command::Undo);
+        bench.run(SessionCommand::Undo);
         assert!(!bench.session.needs_reset(), "{edit:?}");
-        bench.run(Command::Redo);
-        bench.run(Command::Reset);
+        bench.run(SessionCommand::Redo);
+        bench.run(SessionCommand::Reset);
         assert_eq!(bench.sent(), ["Load"], "a reset goes to the scene as it is edited");
         assert!(!bench.session.needs_reset());
     }
@@ -179,7 +179,7 @@ fn poses_velocities_map_and_settings_wait_for_a_reset_and_undo_takes_the_badge_a
 fn a_new_dynamic_body_waits_for_the_start_and_a_deleted_one_goes_at_once() {
     let mut bench = Bench::open();
     bench.step();
-    bench.run(Command::AddSphereDynamic);
+    bench.run(SessionCommand::Add(Addition::SphereDynamic));
     let added = bench.session.selection().primary().unwrap();
     assert_eq!(bench.sent(), Vec::<String>::new());
     assert!(bench.session.needs_reset());
@@ -188,13 +188,13 @@ fn a_new_dynamic_body_waits_for_the_start_and_a_deleted_one_goes_at_once() {
     bench.edit(Edit::Body { key: added, change: BodyChange::Mass(7.0) });
     bench.edit(Edit::Body { key: added, change: BodyChange::Bounce(0.5) });
     assert_eq!(bench.sent(), Vec::<String>::new());
-    bench.run(Command::Delete);
+    bench.run(SessionCommand::Delete);
     assert!(!bench.session.needs_reset());
     bench.act(Action::Select(vec![bench.key(8)]));
-    bench.run(Command::Delete);
+    bench.run(SessionCommand::Delete);
     assert_eq!(bench.sent(), ["Edit Remove"]);
     assert!(!bench.session.needs_reset());
-    bench.run(Command::Undo);
+    bench.run(SessionCommand::Undo);
     assert!(bench.session.needs_reset(), "it was taken out of the run and comes back with the start");
     assert_eq!(bench.sent(), Vec::<String>::new());
 }
@@ -203,13 +203,13 @@ fn a_new_dynamic_body_waits_for_the_start_and_a_deleted_one_goes_at_once() {
 fn reset_loads_again_only_when_the_run_was_edited() {
     let mut bench = Bench::open();
     bench.step();
-    bench.run(Command::Reset);
+    bench.run(SessionCommand::Reset);
     assert_eq!(bench.sent(), ["Reset"]);
     bench.step();
     bench.change(7, BodyChange::Mass(3.0));
-    bench.run(Command::Undo);
+    bench.run(SessionCommand::Undo);
     bench.sent();
-    bench.run(Command::Reset);
+    bench.run(SessionCommand::Reset);
     assert_eq!(bench.sent(), ["Load"], "edits that were recorded must not come back");
 }
 
@@ -230,7 +230,7 @@ fn a_drag_reaches_the_simulation_when_it_ends_or_stands_still() {
     assert_eq!(bench.sent(), ["Load"]);
     bench.wait(Duration::from_secs(1));
     assert_eq!(bench.sent(), Vec::<String>::new());
-    bench.run(Command::Undo);
+    bench.run(SessionCommand::Undo);
     assert_eq!(bench.body(7).position.x, 3.0);
 }
 
@@ -238,7 +238,7 @@ fn a_drag_reaches_the_simulation_when_it_ends_or_stands_still() {
 fn a_step_during_a_drag_runs_what_is_seen() {
     let mut bench = Bench::open();
     bench.drag(7, at(4.0), 1);
-    bench.run(Command::StepForward);
+    bench.run(SessionCommand::StepForward);
     let sent = bench.sent();
     assert_eq!(sent[0], "Load");
     assert!(sent[1].starts_with("Step"), "{sent:?}");
@@ -248,7 +248,7 @@ fn a_step_during_a_drag_runs_what_is_seen() {
 fn stepping_back_to_the_start_lets_edits_load_again() {
     let mut bench = Bench::open();
     bench.step();
-    bench.run(Command::StepBack);
+    bench.run(SessionCommand::StepBack);
     bench.change(7, at(4.0));
     assert!(bench.session.needs_reset(), "the frame does not show the start yet");
     bench.show(|frame| {
@@ -265,7 +265,7 @@ fn stepping_back_to_the_start_lets_edits_load_again() {
 #[test]
 fn a_stale_frame_of_the_start_does_not_hide_that_a_step_was_sent() {
     let mut bench = Bench::open();
-    bench.run(Command::StepForward);
+    bench.run(SessionCommand::StepForward);
     bench.show(|frame| frame.state = RunState::Busy);
     assert!(!bench.session.shows_start());
     bench.sent();
@@ -286,11 +286,11 @@ fn a_document_with_errors_is_not_run_and_can_be_put_right() {
     bench.act(Action::OpenPath(path));
     assert_eq!(bench.sent(), ["Unload"]);
     assert!(bench.notices().contains("has 1 error"));
-    assert!(matches!(bench.run(Command::StepForward), Outcome::Refused(_)));
+    assert!(matches!(bench.run(SessionCommand::StepForward), Outcome::Refused(_)));
     bench.act(Action::Select(vec![bench.key(7)]));
-    assert_eq!(bench.run(Command::Delete), Outcome::Done);
+    assert_eq!(bench.run(SessionCommand::Delete), Outcome::Done);
     assert_eq!(bench.sent(), ["Load"]);
-    assert_eq!(bench.run(Command::StepForward), Outcome::Done);
+    assert_eq!(bench.run(SessionCommand::StepForward), Outcome::Done);
 }
 
 #[test]
@@ -311,13 +311,13 @@ fn the_state_now_becomes_the_start_in_one_undo_point() {
     bench.step();
     let (seven, eight) = (bench.key(7), bench.key(8));
     bench.show(|frame| frame.bodies = vec![moved(seven, 1.0), moved(eight, 2.0)]);
-    assert_eq!(bench.run(Command::TakeStateAsStart), Outcome::Done);
+    assert_eq!(bench.run(SessionCommand::TakeStateAsStart), Outcome::Done);
     assert_eq!(bench.loaded().unwrap().bodies[2].position, DVec3::splat(2.0));
     assert_eq!(bench.sent(), ["Pause", "Load"]);
     assert_eq!(bench.body(7).position, DVec3::splat(1.0));
     assert_eq!(bench.body(7).velocity(), Some(DVec3::new(0.0, -1.0, 0.0)));
     assert!(bench.session.shows_start() && !bench.session.needs_reset());
-    bench.run(Command::Undo);
+    bench.run(SessionCommand::Undo);
     assert_eq!(bench.bytes(), super::editor_support::SCENE);
 }
 
@@ -337,27 +337,31 @@ fn moved(key: polyscene::scene::NodeKey, to: f64) -> BodyFrame {
 fn playing_takes_on_a_new_step_speed_and_time_speed() {
     let mut bench = Bench::open();
     bench.act(Action::SetDt("1/100".into()));
-    bench.run(Command::PlayPause);
+    bench.run(SessionCommand::PlayPause);
     assert_eq!(bench.sent(), ["Play { dt: 0.01, speed: 1.0 }"]);
     bench.show(|frame| frame.state = RunState::Playing);
     bench.act(Action::SetDt("0,02".into()));
-    bench.run(Command::Faster);
+    bench.run(SessionCommand::Faster);
     bench.edit(Edit::TimeSpeed(0.25));
     assert_eq!(
         bench.sent(),
         ["Play { dt: 0.02, speed: 1.0 }", "Play { dt: 0.02, speed: 2.0 }", "Play { dt: 0.02, speed: 0.5 }"]
     );
-    bench.run(Command::Undo);
+    bench.run(SessionCommand::Undo);
     assert_eq!(bench.sent(), ["Play { dt: 0.02, speed: 2.0 }"]);
-    bench.run(Command::PlayPause);
+    bench.run(SessionCommand::PlayPause);
     assert_eq!(bench.sent(), ["Pause"]);
 }
 
 #[test]
 fn a_step_or_a_reset_while_playing_stops_playing_first() {
-    for command in
-        [Command::StepForward, Command::NextEvent, Command::StepBack, Command::EventBack, Command::Reset]
-    {
+    for command in [
+        SessionCommand::StepForward,
+        SessionCommand::NextEvent,
+        SessionCommand::StepBack,
+        SessionCommand::EventBack,
+        SessionCommand::Reset,
+    ] {
         let mut bench = Bench::open();
         bench.step();
         bench.show(|frame| frame.state = RunState::Playing);

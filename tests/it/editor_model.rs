@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use polyscene::editor::{
-    Action, BODY_FIELDS, Command, Drag, FORCE_FIELDS, Fix, Gesture, Outcome, Place, ProblemSource, Request,
-    SAMPLES, SCENE_FIELDS, Shared, Typed, parse_angle, parse_number, shared,
+    Action, Addition, BODY_FIELDS, Drag, FORCE_FIELDS, Fix, Gesture, Outcome, Place, ProblemSource, Request,
+    SAMPLES, SCENE_FIELDS, SessionCommand, Shared, Typed, parse_angle, parse_number, shared,
 };
 use polyscene::scene::{BodyChange, Diagnostic, Document, Edit, ForceChange, Severity, Shape};
+use polyscene::view::Pull;
 
 use super::editor_support::{Bench, BodyNumbers, SCENE};
 
@@ -27,7 +28,7 @@ fn selection_keeps_the_order_and_each_thing_once() {
     assert_eq!(bench.session.selection().place(), Some(Place::Map));
     bench.act(Action::ToggleSelected(seven));
     assert_eq!(bench.session.selection().place(), None);
-    bench.run(Command::SelectNone);
+    bench.run(SessionCommand::SelectNone);
     assert!(bench.session.selection().is_empty());
 }
 
@@ -35,11 +36,11 @@ fn selection_keeps_the_order_and_each_thing_once() {
 fn select_all_leaves_out_what_is_hidden() {
     let mut bench = Bench::open();
     bench.act(Action::Select(vec![bench.key(7)]));
-    bench.run(Command::Hide);
+    bench.run(SessionCommand::Hide);
     assert!(bench.session.selection().is_empty(), "what cannot be seen is not selected");
-    bench.run(Command::SelectAll);
+    bench.run(SessionCommand::SelectAll);
     assert_eq!(bench.session.selection().len(), 3);
-    bench.run(Command::ShowAll);
+    bench.run(SessionCommand::ShowAll);
     assert!(!bench.body(7).hidden);
 }
 
@@ -77,8 +78,8 @@ fn every_field_reads_back_what_it_sets_and_leaves_the_rest() {
 #[test]
 fn forces_and_the_map_have_fields_too() {
     let mut bench = Bench::open();
-    bench.run(Command::AddGravityPoint);
-    bench.run(Command::AddDrag);
+    bench.run(SessionCommand::Add(Addition::GravityPoint));
+    bench.run(SessionCommand::Add(Addition::Drag));
     let scene = bench.session.scene().unwrap();
     let numbers: Vec<usize> = scene
         .forces
@@ -95,7 +96,7 @@ fn forces_and_the_map_have_fields_too() {
 #[test]
 fn one_edit_changes_a_number_of_several_bodies_and_skips_those_without_it() {
     let mut bench = Bench::open();
-    bench.run(Command::SelectAll);
+    bench.run(SessionCommand::SelectAll);
     let mass = BODY_FIELDS.iter().find(|field| field.label == "Mass").unwrap();
     let edit = mass
         .edit(bench.session.scene().unwrap(), bench.session.selection().keys(), 0, &Typed::Value(6.0))
@@ -111,8 +112,8 @@ fn one_edit_changes_a_number_of_several_bodies_and_skips_those_without_it() {
     bench.edit(edit);
     assert_eq!(bench.body(7).position, DVec3::new(3.0, 9.0, 3.0));
     assert_eq!(bench.body(8).position, DVec3::new(7.0, 9.0, 3.0));
-    bench.run(Command::Undo);
-    bench.run(Command::Undo);
+    bench.run(SessionCommand::Undo);
+    bench.run(SessionCommand::Undo);
     assert_eq!(bench.bytes(), SCENE);
 }
 
@@ -120,24 +121,24 @@ fn one_edit_changes_a_number_of_several_bodies_and_skips_those_without_it() {
 fn a_drag_moves_the_selection_but_not_what_is_locked() {
     let mut bench = Bench::open();
     bench.act(Action::Select(vec![bench.key(8)]));
-    bench.run(Command::Lock);
-    bench.run(Command::SelectAll);
+    bench.run(SessionCommand::Lock);
+    bench.run(SessionCommand::SelectAll);
     let drag = Drag::of_selection(&bench.session, Gesture(1)).unwrap();
     for step in 1..=5 {
-        bench.act(drag.move_by(DVec3::new(0.5 * f64::from(step), 0.0, 0.0)));
+        bench.act(drag.pull(&Pull::Move(DVec3::new(0.5 * f64::from(step), 0.0, 0.0)), DVec3::ZERO));
     }
     bench.act(Action::EndGesture);
     assert_eq!(bench.body(7).position, DVec3::new(5.5, 3.0, 3.0));
     assert_eq!(bench.body(8).position, DVec3::new(7.0, 3.0, 3.0));
     assert_eq!(bench.session.undo_label(), Some("Edit 3 objects"), "two bodies and the gravity's symbol");
-    bench.run(Command::Delete);
+    bench.run(SessionCommand::Delete);
     assert_eq!(bench.session.scene().unwrap().bodies.len(), 1);
     assert!(bench.notices().contains("1 locked"));
     bench.act(Action::Select(vec![bench.key(8)]));
     assert!(Drag::of_selection(&bench.session, Gesture(2)).is_none());
-    assert!(matches!(bench.run(Command::Delete), Outcome::Refused(_)));
-    bench.run(Command::UnlockAll);
-    assert_eq!(bench.run(Command::Delete), Outcome::Done);
+    assert!(matches!(bench.run(SessionCommand::Delete), Outcome::Refused(_)));
+    bench.run(SessionCommand::UnlockAll);
+    assert_eq!(bench.run(SessionCommand::Delete), Outcome::Done);
 }
 
 #[test]
@@ -145,15 +146,18 @@ fn new_spheres_touch_nothing_and_lie_in_the_map() {
     for sample in [None, Some(0), Some(9)] {
         let mut bench = Bench::new();
         if let Some(index) = sample {
-            bench.run(Command::OpenSample(index));
+            bench.run(SessionCommand::OpenSample(index));
         }
-        for command in [Command::AddSphereDynamic, Command::AddSphereStatic].repeat(5) {
+        for command in
+            [SessionCommand::Add(Addition::SphereDynamic), SessionCommand::Add(Addition::SphereStatic)]
+                .repeat(5)
+        {
             assert_eq!(bench.run(command), Outcome::Done);
             let scene = bench.session.scene().unwrap();
             let key = bench.session.selection().primary().unwrap();
             let new = scene.bodies.iter().find(|body| body.key == key).unwrap();
             let Shape::Sphere { radius } = new.shape else { panic!("{:?}", new.shape) };
-            assert_eq!(new.is_dynamic(), command == Command::AddSphereDynamic);
+            assert_eq!(new.is_dynamic(), command == SessionCommand::Add(Addition::SphereDynamic));
             assert!(new.position.cmpge(DVec3::splat(radius)).all(), "{}", new.position);
             assert!((new.position + radius).cmple(scene.map.size).all(), "{}", new.position);
             for other in scene.bodies.iter().filter(|body| body.key != key) {
@@ -168,19 +172,19 @@ fn new_spheres_touch_nothing_and_lie_in_the_map() {
 #[test]
 fn every_add_command_adds_one_selected_object_without_problems() {
     for command in [
-        Command::AddSphereDynamic,
-        Command::AddSphereStatic,
-        Command::AddPlane,
-        Command::AddGravityPlane,
-        Command::AddGravityPoint,
-        Command::AddDrag,
+        SessionCommand::Add(Addition::SphereDynamic),
+        SessionCommand::Add(Addition::SphereStatic),
+        SessionCommand::Add(Addition::Plane),
+        SessionCommand::Add(Addition::GravityPlane),
+        SessionCommand::Add(Addition::GravityPoint),
+        SessionCommand::Add(Addition::Drag),
     ] {
         let mut bench = Bench::new();
         assert_eq!(bench.run(command), Outcome::Done);
         let scene = bench.session.scene().unwrap();
         assert_eq!(scene.bodies.len() + scene.forces.len(), 1, "{command:?}");
         assert_eq!(bench.session.selection().len(), 1);
-        let warns = command == Command::AddDrag;
+        let warns = command == SessionCommand::Add(Addition::Drag);
         assert!(warns || bench.session.problems().is_empty(), "{:?}", bench.session.problems());
         assert_eq!(bench.session.document().reasons_for_1_1().is_empty(), !warns);
     }
@@ -191,7 +195,7 @@ fn copies_lie_beside_their_originals_and_are_selected() {
     let mut bench = Bench::open();
     bench.act(Action::Select(vec![bench.key(7), bench.key(8)]));
     let before = bench.session.selection().clone();
-    assert_eq!(bench.run(Command::Duplicate), Outcome::Done);
+    assert_eq!(bench.run(SessionCommand::Duplicate), Outcome::Done);
     let scene = bench.session.scene().unwrap();
     assert_eq!(scene.bodies.len(), 5);
     assert_eq!(bench.session.selection().len(), 2);
@@ -208,7 +212,7 @@ fn copies_lie_beside_their_originals_and_are_selected() {
 fn cut_and_paste_carry_bodies_and_forces_as_xml() {
     let mut bench = Bench::open();
     bench.act(Action::Select(vec![bench.key(8), bench.force(1).key]));
-    assert_eq!(bench.run(Command::Cut), Outcome::Done);
+    assert_eq!(bench.run(SessionCommand::Cut), Outcome::Done);
     let requests = bench.session.take_requests();
     let [Request::SetClipboard(text)] = &requests[..] else { panic!("{requests:?}") };
     assert!(text.contains("PolyPhysicsXml") && text.contains("UserID=\"8\""), "{text}");
@@ -239,7 +243,7 @@ fn a_repeated_id_is_a_problem_with_its_fix() {
     let Some(Fix::Mend(mend)) = problem.fix else { panic!("{problem:?}") };
     bench.act(Action::Mend(mend));
     assert!(bench.session.problems().is_empty());
-    assert!(matches!(bench.run(Command::MakeIdsUnique), Outcome::Refused(_)));
+    assert!(matches!(bench.run(SessionCommand::MakeIdsUnique), Outcome::Refused(_)));
 }
 
 #[test]
@@ -272,9 +276,9 @@ fn a_fault_is_a_problem_and_a_message() {
     });
     assert!(bench.notices().contains("not finite"));
     assert!(matches!(&bench.session.problems()[..], [p] if p.source == ProblemSource::Run));
-    assert!(matches!(bench.run(Command::StepForward), Outcome::Refused(_)));
-    assert_eq!(bench.run(Command::StepBack), Outcome::Done);
-    assert_eq!(bench.run(Command::Reset), Outcome::Done);
+    assert!(matches!(bench.run(SessionCommand::StepForward), Outcome::Refused(_)));
+    assert_eq!(bench.run(SessionCommand::StepBack), Outcome::Done);
+    assert_eq!(bench.run(SessionCommand::Reset), Outcome::Done);
 }
 
 #[test]
@@ -315,11 +319,11 @@ fn a_step_that_makes_no_sense_is_refused_and_the_old_one_stays() {
 fn the_speed_stays_within_bounds() {
     let mut bench = Bench::open();
     for _ in 0..30 {
-        bench.run(Command::Faster);
+        bench.run(SessionCommand::Faster);
     }
     assert_eq!(bench.session.playback().speed(), 1024.0);
     for _ in 0..60 {
-        bench.run(Command::Slower);
+        bench.run(SessionCommand::Slower);
     }
     assert_eq!(bench.session.playback().speed(), 1.0 / 1024.0);
     bench.act(Action::SetSpeed(f64::NAN));

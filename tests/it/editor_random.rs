@@ -7,9 +7,10 @@ use proptest::test_runner::{Config, TestRunner};
 
 use polyscene::design::{Eye, TOOLS};
 use polyscene::editor::{
-    Action, Answer, BODY_FIELDS, COMMANDS, Command, Drag, Gesture, Menu, Request, Typed,
+    Action, Answer, BODY_FIELDS, COMMANDS, Command, Drag, Gesture, Menu, Request, SessionCommand, Typed,
 };
 use polyscene::scene::{Document, NodeKey};
+use polyscene::view::Pull;
 
 use super::editor_support::{Bench, SCENE};
 
@@ -87,9 +88,9 @@ impl Person {
         }
         self.answers();
         if self.keys().len() > MOST_BODIES {
-            self.bench.run(Command::SelectAll);
-            self.bench.run(Command::UnlockAll);
-            self.bench.run(Command::Delete);
+            self.bench.run(SessionCommand::SelectAll);
+            self.bench.run(SessionCommand::UnlockAll);
+            self.bench.run(SessionCommand::Delete);
         }
     }
 
@@ -97,8 +98,9 @@ impl Person {
     fn command(&mut self, at: usize) {
         let rows: Vec<_> = COMMANDS.iter().filter(|row| row.menu != Menu::File).collect();
         let row = rows[at % rows.len()];
-        if !matches!(row.command, Command::Undo | Command::Redo) {
-            self.bench.run(row.command);
+        let Command::Session(command) = row.command else { return };
+        if !matches!(command, SessionCommand::Undo | SessionCommand::Redo) {
+            self.bench.run(command);
         }
     }
 
@@ -121,7 +123,7 @@ impl Person {
         let Some(drag) = Drag::of_selection(&self.bench.session, Gesture(self.gestures)) else { return };
         for at in way {
             let offset = DVec3::from_array(at.map(f64::from)) / 32.0;
-            self.bench.act(drag.move_by(offset));
+            self.bench.act(drag.pull(&Pull::Move(offset), DVec3::ZERO));
         }
         self.bench.act(if dropped { Action::EndGesture } else { Action::AbandonGesture });
     }
@@ -183,13 +185,13 @@ fn a_thousand_commands_are_undone_and_redone_to_the_byte() {
             let end = person.bench.bytes();
             let mut undone = 0;
             while person.bench.session.undo_label().is_some() {
-                person.bench.run(Command::Undo);
+                person.bench.run(SessionCommand::Undo);
                 undone += 1;
             }
             prop_assert_eq!(person.bench.bytes(), SCENE, "{} points", undone);
             prop_assert!(!person.bench.session.is_dirty());
             for _ in 0..undone {
-                person.bench.run(Command::Redo);
+                person.bench.run(SessionCommand::Redo);
             }
             prop_assert_eq!(person.bench.bytes(), end);
             Ok(())

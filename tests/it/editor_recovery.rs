@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use polyscene::editor::{Action, Answer, Command, Question, Request};
+use polyscene::editor::{Action, Addition, Answer, Question, Request, SessionCommand};
 use polyscene::scene::BodyChange;
 
 use super::editor_support::{Bench, BodyNumbers, SCENE};
@@ -41,7 +41,7 @@ fn the_next_run_offers_the_work_and_restores_it_unsaved() {
     drop(session);
     let mut bench = Bench::with_storage(folder);
     bench.act(Action::Answer(Answer::Restore));
-    bench.run(Command::Save);
+    bench.run(SessionCommand::Save);
     assert!(std::fs::read_to_string(&path).unwrap().contains("<Weight F32=\"3\" />"));
     assert_eq!(recovery_files(&bench.folder), 0);
 }
@@ -52,7 +52,7 @@ fn restored_work_asks_before_it_replaces_a_file_that_changed_meanwhile() {
     std::fs::write(&path, "newer").unwrap();
     let mut bench = Bench::with_storage(folder);
     bench.act(Action::Answer(Answer::Restore));
-    bench.run(Command::Save);
+    bench.run(SessionCommand::Save);
     assert!(matches!(bench.session.question(), Some(Question::ChangedOnDisk { .. })));
     assert_eq!(std::fs::read_to_string(&path).unwrap(), "newer");
 }
@@ -74,7 +74,7 @@ fn discard_forgets_the_work_and_later_keeps_it() {
 #[test]
 fn work_of_a_run_that_still_lives_is_not_offered() {
     let mut first = Bench::with_storage(tempfile::tempdir().unwrap());
-    first.run(Command::AddPlane);
+    first.run(SessionCommand::Add(Addition::Plane));
     first.wait(Duration::from_secs(1));
     assert!(recovery_files(&first.folder) > 0);
     let runner = super::editor_support::FakeRunner::default();
@@ -89,10 +89,10 @@ fn nothing_is_kept_of_what_was_saved_discarded_or_undone() {
     let path = bench.file("scene.xml", SCENE);
     bench.act(Action::OpenPath(path));
     let ends: [fn(&mut Bench); 3] = [
-        |bench| drop(bench.run(Command::Undo)),
-        |bench| drop(bench.run(Command::Save)),
+        |bench| drop(bench.run(SessionCommand::Undo)),
+        |bench| drop(bench.run(SessionCommand::Save)),
         |bench| {
-            bench.run(Command::Quit);
+            bench.run(SessionCommand::Quit);
             bench.act(Action::Answer(Answer::Discard));
             assert_eq!(bench.session.take_requests(), [Request::Quit]);
         },
@@ -137,10 +137,10 @@ fn a_folder_that_cannot_be_written_is_told_once_and_stops_nothing() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("data"), "a file where the folder should be").unwrap();
     let mut bench = Bench::with_storage(folder);
-    bench.run(Command::AddPlane);
+    bench.run(SessionCommand::Add(Addition::Plane));
     bench.wait(Duration::from_secs(20));
     assert!(bench.notices().contains("cannot be kept safe"));
-    bench.run(Command::AddPlane);
+    bench.run(SessionCommand::Add(Addition::Plane));
     bench.wait(Duration::from_secs(20));
     assert_eq!(bench.notices(), "");
 }
@@ -179,6 +179,6 @@ fn a_name_that_is_no_utf8_is_kept_and_offered() {
     assert_eq!(bench.session.settings().recent, std::slice::from_ref(&path));
     bench.act(Action::Answer(Answer::Restore));
     assert_eq!(bench.session.path(), Some(path.as_path()));
-    bench.run(Command::Save);
+    bench.run(SessionCommand::Save);
     assert!(std::fs::read_to_string(&path).unwrap().contains("<Weight F32=\"3\" />"));
 }

@@ -6,7 +6,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use polyscene::editor::{Action, Command, Gesture, Outcome, Session, Storage};
+use polyscene::editor::{Action, Gesture, Outcome, Session, SessionCommand, Storage};
 use polyscene::record::{Frame, RunCommand, RunState, Runner};
 use polyscene::scene::{Body, BodyChange, Edit, Force, NodeKey};
 
@@ -99,7 +99,7 @@ impl Bench {
         self.session.perform(action)
     }
 
-    pub fn run(&mut self, command: Command) -> Outcome {
+    pub fn run(&mut self, command: SessionCommand) -> Outcome {
         self.session.perform(Action::Command(command))
     }
 
@@ -134,7 +134,7 @@ impl Bench {
 
     /// Makes one step and shows that it was made.
     pub fn step(&mut self) {
-        assert_eq!(self.run(Command::StepForward), Outcome::Done);
+        assert_eq!(self.run(SessionCommand::StepForward), Outcome::Done);
         let dt = self.session.playback().dt();
         self.show(|frame| {
             frame.dt_index += 1;
@@ -150,9 +150,12 @@ impl Bench {
         sent.iter()
             .map(|command| match command {
                 RunCommand::Load(_) => "Load".to_owned(),
-                RunCommand::Edit(edit) => {
-                    let text = format!("{edit:?}");
-                    format!("Edit {}", text.split(['(', ' ']).next().unwrap_or_default())
+                RunCommand::Edit(edits) => {
+                    let name = |edit| {
+                        let text = format!("{edit:?}");
+                        text.split(['(', ' ']).next().unwrap_or_default().to_owned()
+                    };
+                    format!("Edit {}", edits.iter().map(name).collect::<Vec<_>>().join(" "))
                 }
                 other => format!("{other:?}"),
             })
@@ -163,10 +166,10 @@ impl Bench {
     pub fn sent_edits(&self) -> Vec<polyscene::sim::SimEdit> {
         let sent = std::mem::take(&mut self.runner.0.borrow_mut().sent);
         let edits = sent.into_iter().filter_map(|command| match command {
-            RunCommand::Edit(edit) => Some(*edit),
+            RunCommand::Edit(edits) => Some(edits),
             _ => None,
         });
-        edits.collect()
+        edits.flatten().collect()
     }
 
     /// The scene last loaded.

@@ -148,6 +148,12 @@ impl Window {
         self.harness.query_all_by_label_contains(text).next().is_some()
     }
 
+    /// All that has a name.
+    pub fn labels(&self) -> Vec<String> {
+        let nodes = self.harness.query_all_by_label_contains("");
+        nodes.filter_map(|node| node.accesskit_node().label()).collect()
+    }
+
     pub fn view_rect(&self, name: &str) -> Rect {
         self.harness.get_by_role_and_label(Role::Canvas, name).rect()
     }
@@ -193,7 +199,7 @@ impl Window {
         self.harness.event_modifiers(press, modifiers);
         self.harness.step();
         for at in &way[1..] {
-            self.harness.event(Event::PointerMoved(*at));
+            self.harness.event_modifiers(Event::PointerMoved(*at), modifiers);
             self.harness.step();
         }
         self.harness.step();

@@ -45,10 +45,16 @@ mod gui_accuracy;
 mod gui_badge;
 // Building in the window: parts, formulas, groups, problems; a whole scene in few actions.
 mod gui_building;
+// Views: saved viewpoints, following a body.
+mod gui_cameras;
+// Panels of the window: moved, tabbed, given room, reset.
+mod gui_dock;
 // Editing in the window: by typing, by dragging, by commands, with undo.
 mod gui_edit;
 // Files in the window: start card, open, save, unsaved changes, the window's own dialog.
 mod gui_files;
+// Handles in the views: found by name, dragged, typed into, each drag one undo point.
+mod gui_gizmo;
 // Heaps in the window: marks, status, chains, and why playing falls behind.
 mod gui_heap;
 // Pictures of the window: its views are drawn, and only when they change.
@@ -145,6 +151,8 @@ mod view_camera;
 mod view_drag;
 // Draw lists: what is in them, precision far from the origin, overlays, when they are built anew.
 mod view_draw_list;
+// Handles: where they are seen, which is under the pointer, what dragging one means, contact.
+mod view_gizmo;
 // Picking against brute force; what is hidden or see-through is passed over.
 mod view_pick;
 // Scenes that the tests of views and pictures share.

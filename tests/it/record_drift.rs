@@ -1,5 +1,7 @@
 //! The event at which the residual changed most: found, kept while going back, and gone back to.
 
+use std::sync::Arc;
+
 use polyscene::record::{InlineRunner, RunCommand, Runner as _};
 use polyscene::sim::Method;
 
@@ -8,7 +10,7 @@ use crate::common::load::load;
 fn runner(method: Method) -> InlineRunner {
     let mut runner = InlineRunner::new();
     runner.send(RunCommand::Method(method));
-    runner.send(RunCommand::Load(Box::new(load("thesis-appendix-2.xml"))));
+    runner.send(RunCommand::Load(Arc::new(load("thesis-appendix-2.xml"))));
     runner
 }
 

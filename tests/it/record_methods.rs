@@ -16,7 +16,7 @@ fn thesis() -> Scene {
 
 fn runner(method: Method) -> InlineRunner {
     let mut runner = InlineRunner::new();
-    runner.send(RunCommand::Load(Box::new(thesis())));
+    runner.send(RunCommand::Load(Arc::new(thesis())));
     runner.send(RunCommand::Method(method));
     runner
 }
@@ -52,7 +52,7 @@ fn another_method_starts_again_and_stays() {
         runner.send(RunCommand::Method(method));
         assert_eq!((runner.frame().method, runner.frame().time), (method, 0.0));
         runner.send(RunCommand::Unload);
-        runner.send(RunCommand::Load(Box::new(thesis())));
+        runner.send(RunCommand::Load(Arc::new(thesis())));
         let frame = step(&mut runner, 0.05, 60);
         let mut simulation = Simulation::with_method(&thesis(), method).unwrap();
         for tick in 1..=60 {
@@ -110,7 +110,7 @@ fn edits_inside_a_step_are_replayed() {
         step(&mut runner, 0.1, 5);
         runner.send(RunCommand::NextEvent { dt: 0.1 });
         assert!(runner.frame().open_step.is_some());
-        runner.send(RunCommand::Edit(Box::new(lift())));
+        runner.send(RunCommand::Edit(vec![lift()]));
         assert_eq!(runner.frame().fault, None);
         runner.send(RunCommand::FinishStep);
         let after = bits(&step(&mut runner, 0.1, 30));
@@ -131,7 +131,7 @@ fn another_step_length_after_going_back_makes_another_future_and_says_so() {
     for method in STEPPING {
         let mut runner = runner(method);
         step(&mut runner, 0.1, 10);
-        runner.send(RunCommand::Edit(Box::new(lift())));
+        runner.send(RunCommand::Edit(vec![lift()]));
         step(&mut runner, 0.1, 5);
         for _ in 0..10 {
             runner.send(RunCommand::StepBack);

@@ -18,7 +18,7 @@ fn scene(name: &str) -> Scene {
 
 fn loaded(name: &str) -> InlineRunner {
     let mut runner = InlineRunner::new();
-    runner.send(RunCommand::Load(Box::new(scene(name))));
+    runner.send(RunCommand::Load(Arc::new(scene(name))));
     runner
 }
 
@@ -110,7 +110,7 @@ fn edits_are_replayed_at_their_stamps_and_a_new_one_makes_a_new_future() {
         acceleration: glam::DVec3::new(0.0, 2.0, 0.0),
     };
     let lighter = SimEdit::ChangeForce(Box::new(force));
-    runner.send(RunCommand::Edit(Box::new(lighter)));
+    runner.send(RunCommand::Edit(vec![lighter]));
     assert_eq!(runner.frame().fault, None);
     let after = bits(&step(&mut runner, 100));
     assert_eq!(runner.frame().energy.and_then(|e| e.residual).map(|r| r.abs() < 1e-10), Some(true));
@@ -125,7 +125,7 @@ fn edits_are_replayed_at_their_stamps_and_a_new_one_makes_a_new_future() {
     let body = scene("thesis-appendix-2.xml").bodies[0].key;
     let wall = runner.frame().bodies[0].key;
     assert_ne!(body, wall);
-    runner.send(RunCommand::Edit(Box::new(SimEdit::Mass(wall, 3.0))));
+    runner.send(RunCommand::Edit(vec![SimEdit::Mass(wall, 3.0)]));
     assert_eq!(
         runner.frame().events.last().map(|row| row.event.kind),
         None,
@@ -139,7 +139,7 @@ fn an_edit_is_an_event_of_the_table() {
     let mut runner = loaded("bounce.xml");
     step(&mut runner, 10);
     let key = runner.frame().bodies[0].key;
-    runner.send(RunCommand::Edit(Box::new(SimEdit::Mass(key, 2.5))));
+    runner.send(RunCommand::Edit(vec![SimEdit::Mass(key, 2.5)]));
     let frame = step(&mut runner, 1);
     assert_eq!(frame.events.iter().map(|row| row.event.kind).collect::<Vec<_>>(), [EventKind::Edit]);
 }
@@ -149,7 +149,7 @@ fn a_refused_edit_says_why_and_changes_nothing() {
     let mut runner = loaded("bounce.xml");
     let before = bits(&step(&mut runner, 10));
     let key = runner.frame().bodies[0].key;
-    runner.send(RunCommand::Edit(Box::new(SimEdit::Mass(key, -1.0))));
+    runner.send(RunCommand::Edit(vec![SimEdit::Mass(key, -1.0)]));
     assert!(runner.frame().fault.as_deref().is_some_and(|why| why.contains("Weight")));
     assert_eq!(bits(&runner.frame()), before);
 }
@@ -175,7 +175,7 @@ fn next_event_gives_up_where_nothing_happens() {
     scene.bodies.retain(polyscene::scene::Body::is_dynamic);
     scene.forces.clear();
     let mut runner = InlineRunner::new();
-    runner.send(RunCommand::Load(Box::new(scene)));
+    runner.send(RunCommand::Load(Arc::new(scene)));
     runner.send(RunCommand::NextEvent { dt: 0.01 });
     assert_eq!(runner.frame().state, RunState::Paused);
     assert!(runner.frame().fault.is_some());
@@ -209,7 +209,7 @@ fn a_thread_reaches_the_same_state() {
         bits(&step(&mut runner, 600))
     };
     let mut runner = ThreadRunner::new(|| {}).expect("a thread");
-    runner.send(RunCommand::Load(Box::new(scene("thesis-appendix-2.xml"))));
+    runner.send(RunCommand::Load(Arc::new(scene("thesis-appendix-2.xml"))));
     runner.send(RunCommand::Step { dt: DT, count: 600 });
     let deadline = Instant::now() + Duration::from_secs(60);
     while runner.frame().dt_index < 600 && Instant::now() < deadline {
@@ -224,7 +224,7 @@ fn a_thread_reaches_the_same_state() {
 fn a_thread_inside_a_long_call_does_not_hold_up_whoever_drops_it() {
     const LONG: Duration = Duration::from_secs(5);
     let mut runner = ThreadRunner::new(|| std::thread::sleep(LONG)).expect("a thread");
-    runner.send(RunCommand::Load(Box::new(scene("bounce.xml"))));
+    runner.send(RunCommand::Load(Arc::new(scene("bounce.xml"))));
     while runner.frame().state == RunState::Empty {
         std::thread::yield_now();
     }
@@ -240,7 +240,7 @@ fn a_dropped_thread_forgets_what_waits() {
     let mut runner = ThreadRunner::new(move || told.send(()).unwrap_or_default()).expect("a thread");
     let scene = scene("gas.xml");
     for _ in 0..10_000 {
-        runner.send(RunCommand::Load(Box::new(scene.clone())));
+        runner.send(RunCommand::Load(Arc::new(scene.clone())));
     }
     drop(runner);
     // The channel closes when the thread has ended.

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use polyscene::scene::{
     Body, BodyChange, Document, Edit, EditError, Force, ForceChange, ForceKind, Motion, NodeKey, NumberStyle,
-    Scene, Shape, SimParams,
+    Scene, Shape, SimParams, Viewpoint,
 };
 
 use crate::scene_read::{BALL, FORCES, WALL, problems, read, scene_with};
@@ -446,4 +446,43 @@ fn a_new_document_grows_neatly() {
     let expected =
         text(&document).replace("<Primitives>\n", &format!("<Primitives>\n{}", NEW_BALL.replace(',', ".")));
     assert_eq!(text(&edited), expected);
+}
+
+#[test]
+fn viewpoints_are_kept_in_an_instruction_that_others_skip() {
+    let viewpoint = |name: &str, perspective| Viewpoint {
+        name: name.to_owned(),
+        perspective,
+        target: DVec3::new(1.5, -2.0, 0.1),
+        yaw: 0.6,
+        pitch: -0.25,
+        height: 3.0,
+    };
+    let document = read(&plain());
+    let (near, far) = (viewpoint("Kick-off <1>", true), viewpoint("top", false));
+    let edited = document.apply(&Edit::Viewpoints(vec![near.clone(), far.clone()])).unwrap();
+    assert!(edited.touched.cosmetics && edited.touched.keys.is_empty() && !edited.touched.settings);
+    let again = Document::from_bytes(&edited.document.to_bytes());
+    assert_eq!(again.viewpoints(), [near, far]);
+    assert_eq!(problems(&again), problems(&document));
+    assert_eq!(again.scene().unwrap().bodies.len(), scene(&document).bodies.len());
+    let none = again.apply(&Edit::Viewpoints(Vec::new())).unwrap().document;
+    assert_eq!(text(&none), text(&document), "the instruction goes with the last of them");
+    assert_eq!(read(&plain()).viewpoints(), []);
+}
+
+#[test]
+fn an_edit_says_what_it_touched() {
+    let document = read(&plain());
+    let keys: Vec<NodeKey> = scene(&document).bodies.iter().map(|body| body.key).collect();
+    let touched = |edit: &Edit| document.apply(edit).unwrap().touched;
+    let moved = |key| Edit::Body { key, change: BodyChange::Position(DVec3::splat(0.25)) };
+    assert_eq!(touched(&moved(keys[0])).keys.into_iter().collect::<Vec<_>>(), [keys[0]]);
+    let both = touched(&Edit::All(vec![moved(keys[0]), Edit::Delete { keys: vec![keys[1]] }]));
+    assert_eq!(both.keys.into_iter().collect::<Vec<_>>(), keys);
+    assert!(touched(&Edit::TimeSpeed(3.0)).settings);
+    let added = document.apply(&Edit::Duplicate { keys: keys.clone(), offset: DVec3::ONE }).unwrap();
+    assert_eq!(added.touched.keys.into_iter().collect::<Vec<_>>(), added.added);
+    let same = Edit::Body { key: keys[0], change: BodyChange::Position(scene(&document).bodies[0].position) };
+    assert!(touched(&same).is_empty());
 }

@@ -1,59 +1,9 @@
-//! Dragging and snapping, round lengths and short numbers, trails.
+//! Snapping, round lengths and short numbers, trails.
 
-use glam::{DVec2, DVec3, dvec2, dvec3};
-use polyscene::view::{
-    Axis, Camera, Projection, Trails, Viewport, drag_along_axis, drag_in_plane, gizmo_handles, number, snap,
-    snap_step, with_unit,
-};
+use glam::{DVec3, dvec3};
+use polyscene::view::{Camera, Trails, Viewport, number, snap, snap_step, with_unit};
 
 use crate::view_scenes::frame;
-
-const ASPECT: f64 = 1.5;
-
-fn cameras() -> [Camera; 4] {
-    let perspective = Camera::default();
-    let ortho = Camera { projection: Projection::Orthographic, ..perspective };
-    let top = Camera { pitch: std::f64::consts::FRAC_PI_2, ..ortho };
-    let far = Camera { target: dvec3(1e5, 1e5, -1e5), ..ortho };
-    [perspective, ortho, top, far]
-}
-
-#[test]
-fn a_body_dragged_in_the_view_stays_under_the_pointer() {
-    for camera in cameras() {
-        let grabbed = camera.target + dvec3(1.0, -2.0, 0.5);
-        let from = camera.project(grabbed, ASPECT).unwrap().truncate();
-        let to = from + dvec2(0.2, -0.1);
-        let moved = drag_in_plane(&camera, ASPECT, grabbed, from, to);
-        assert!(moved.dot(camera.backward()).abs() < 1e-9, "left the plane of the view");
-        let seen = camera.project(grabbed + moved, ASPECT).unwrap().truncate();
-        assert!(seen.distance(to) < 1e-9, "{camera:?}: {seen} instead of {to}");
-    }
-}
-
-#[test]
-fn a_body_dragged_along_an_axis_follows_the_pointers_part_along_it() {
-    for camera in cameras() {
-        let grabbed = camera.target + dvec3(0.3, 0.2, -0.4);
-        for axis in Axis::ALL {
-            let seen = |s: f64| camera.project(grabbed + axis.unit() * s, ASPECT).unwrap().truncate();
-            if seen(0.0).distance(seen(1.0)) < 1e-3 {
-                continue;
-            }
-            let moved = drag_along_axis(&camera, ASPECT, grabbed, axis, seen(0.0), seen(1.7));
-            assert!((moved - 1.7).abs() < 1e-8, "{camera:?} {axis:?}: {moved}");
-        }
-    }
-}
-
-#[test]
-fn an_axis_seen_end_on_has_no_handle_and_can_not_be_dragged() {
-    let [_, _, top, _] = cameras();
-    let handles = gizmo_handles(&top, Viewport::new(600.0, 400.0, 1.0), top.target);
-    assert_eq!(handles.iter().map(|handle| handle.axis).collect::<Vec<_>>(), [Axis::X, Axis::Z]);
-    let moved = drag_along_axis(&top, ASPECT, top.target, Axis::Y, DVec2::ZERO, dvec2(0.3, 0.2));
-    assert!(moved.is_finite());
-}
 
 #[test]
 fn snapping_gives_the_numbers_a_person_would_type() {

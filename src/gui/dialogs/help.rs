@@ -48,15 +48,20 @@ const WINDOW: [(&str, &str); 8] = [
     ),
 ];
 
-const GESTURES: [(&str, &str); 12] = [
+const GESTURES: [(&str, &str); 14] = [
     ("Click", "Select; again at the same place: what lies behind"),
     ("Ctrl or Shift + click", "Add to the selection or take out"),
     ("Drag", "Select by a rectangle"),
-    ("Drag a body", "Move it, in views along an axis; static bodies when selected. Esc cancels"),
+    (
+        "Drag a handle or a ball",
+        "Move, turn or size what is selected. Esc cancels, Shift is fine, Ctrl snaps",
+    ),
+    ("A number while dragging", "Takes that, by Enter; X, Y or Z before it chooses the axis"),
+    ("Drag a tab, or a view's dots", "Put a panel or view elsewhere"),
     ("Middle or right drag", "Turn a perspective view, move a view along an axis"),
     ("Shift + middle drag", "Move the view"),
     ("Wheel", "Magnify at the pointer"),
-    ("Right click", "Menu"),
+    ("Right click", "Select what is there, and its menu"),
     ("Double click a body", "Bring it into the middle"),
     ("Double click a view's title", "Fill the middle with it"),
     ("Arrows", "Move the selection by a round step; with nothing selected, or Alt, turn or move the view"),

@@ -12,10 +12,10 @@ use egui::Context;
 use super::accuracy::Export;
 use super::context::{AppContext, Shown};
 use crate::design::Eye;
-use crate::editor::{Action, Command, Request};
+use crate::editor::{Action, Request};
 
 pub use files::{FileAnswer, FileDialogs, FileRequest, NativeFileDialogs, NoFileDialogs};
-use help::HelpPage;
+pub use help::HelpPage;
 use palette::Palette;
 use path::PathDialog;
 use tool::ToolDialog;
@@ -45,16 +45,12 @@ impl Dialogs {
             || self.tool.is_some()
     }
 
-    /// Carries out a command that opens a dialog; `false` if it is none.
-    pub fn execute(&mut self, command: Command) -> bool {
-        match command {
-            Command::Palette => self.palette = Some(Palette::default()),
-            Command::Help => self.help = Some(HelpPage::Window),
-            Command::Shortcuts => self.help = Some(HelpPage::Keys),
-            Command::About => self.help = Some(HelpPage::About),
-            _ => return false,
-        }
-        true
+    pub fn open_palette(&mut self) {
+        self.palette = Some(Palette::default());
+    }
+
+    pub fn open_help(&mut self, page: HelpPage) {
+        self.help = Some(page);
     }
 
     /// Asks for what a tool of [`crate::design::TOOLS`] needs to know.

@@ -24,7 +24,6 @@ pub struct Inspector {
 impl Inspector {
     pub fn show(&mut self, ui: &mut Ui, context: &AppContext<'_>) {
         let Some(shown) = context.shown else {
-            panel_heading(ui, "Inspector", |_| {});
             ui.label(RichText::new("  There is no scene to look at.").color(tones(ui).weak));
             return;
         };

@@ -11,9 +11,8 @@ use rustc_hash::FxHashMap;
 use super::colors::tones;
 use super::context::{AppContext, Message, Shown};
 use super::theme::ROW_HEIGHT;
-use super::widgets::panel_heading;
 use crate::design::{self, Eye};
-use crate::editor::{Action, Command};
+use crate::editor::{Action, SessionCommand};
 use crate::record::Frame;
 use crate::scene::{BodyChange, Edit, ForceChange, NodeKey};
 use crate::sim::ContactState;
@@ -111,7 +110,6 @@ impl Tree {
     }
 
     pub fn show(&mut self, ui: &mut Ui, context: &AppContext<'_>) {
-        panel_heading(ui, "Scene", |_| {});
         self.filter_field(ui, context);
         let Some(shown) = context.shown else {
             ui.label(RichText::new("  The file has errors; see Problems.").color(tones(ui).weak));
@@ -142,7 +140,7 @@ impl Tree {
         if rest.is_positive() {
             let free = ui.interact(rest, ui.scope_id().with("below rows"), egui::Sense::click());
             if free.clicked() {
-                context.outbox.command(Command::SelectNone);
+                context.outbox.command(SessionCommand::SelectNone);
             }
         }
         self.known.rows = rows;

@@ -6,7 +6,7 @@ use egui::{Align2, FontId, Rect, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use super::named::{self, Named};
 use super::{Renamed, Tree, look_at};
-use crate::editor::{self, Action, Command, Place};
+use crate::editor::{self, Action, Command, Place, SessionCommand, ViewCommand, WindowCommand};
 use crate::gui::colors::{color32, tones};
 use crate::gui::context::{AppContext, Message, Shown, force_name};
 use crate::gui::theme::ROW_HEIGHT;
@@ -450,17 +450,17 @@ fn group_row(ui: &mut Ui, group: Group, count: usize, shown: usize, open: bool) 
 
 pub(super) fn context_menu(ui: &mut Ui, context: &AppContext<'_>) {
     const COMMANDS: [Command; 11] = [
-        Command::FrameSelection,
-        Command::Rename,
-        Command::Cut,
-        Command::Copy,
-        Command::Paste,
-        Command::Duplicate,
-        Command::Delete,
-        Command::Group,
-        Command::Ungroup,
-        Command::Hide,
-        Command::Lock,
+        Command::View(ViewCommand::FrameSelection),
+        Command::Window(WindowCommand::Rename),
+        Command::Session(SessionCommand::Cut),
+        Command::Session(SessionCommand::Copy),
+        Command::Session(SessionCommand::Paste),
+        Command::Session(SessionCommand::Duplicate),
+        Command::Session(SessionCommand::Delete),
+        Command::Session(SessionCommand::Group),
+        Command::Session(SessionCommand::Ungroup),
+        Command::Session(SessionCommand::Hide),
+        Command::Session(SessionCommand::Lock),
     ];
     ui.set_min_width(200.0);
     COMMANDS.iter().filter_map(|command| editor::info(*command)).for_each(|info| {

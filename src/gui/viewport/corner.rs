@@ -4,17 +4,20 @@ use egui::{Align, Button, Layout, Rect, RichText, Ui, UiBuilder, vec2};
 
 use super::pane::Pane;
 use super::{Scenery, look_name};
-use crate::editor::{self, Command};
+use crate::editor::{self, Command, SessionCommand, ViewCommand, WindowCommand};
 use crate::gui::colors::color32;
 use crate::gui::icons;
 use crate::gui::menu;
-use crate::view::{AxisView, OVERLAYS, OverlaySet, Projection};
+use crate::gui::widgets::icon_button;
+use crate::scene::{Edit, Viewpoint};
+use crate::view::{AxisView, Camera, OVERLAYS, OverlaySet, Projection, Tool};
 
 /// What was asked in a corner.
 #[derive(Default)]
 pub struct Asked {
     pub maximize: bool,
     pub activate: bool,
+    pub moved: bool,
 }
 
 impl Pane {
@@ -25,8 +28,10 @@ impl Pane {
         let back = ui.painter().add(egui::Shape::Noop);
         let title = ui.scope_builder(left, |ui| {
             ui.spacing_mut().item_spacing.x = 2.0;
-            self.title(ui, &mut asked);
+            self.grip(ui, &mut asked);
+            self.title(ui, scenery, &mut asked);
             self.overlay_button(ui, scenery, &mut asked);
+            self.followed(ui, scenery, &mut asked);
         });
         // legible over whatever the view shows
         let color = color32(scenery.context.palette().label_back);
@@ -38,42 +43,128 @@ impl Pane {
             let color = ui.style().interact(&response).text_color();
             icons::paint_panes(ui.painter(), square.shrink(4.0), color, 1);
             crate::gui::widgets::name_button(ui, &response, &name, false);
-            let info = editor::info(Command::MaximizeView);
+            let info = editor::info(ViewCommand::Maximize);
             let help = info.map_or(String::new(), |info| info.tooltip(scenery.context.session));
             asked.maximize |= response.on_hover_text(help).clicked();
         });
         asked
     }
 
+    /// What the handles do, down the left side of the active view.
+    pub(super) fn tools(ui: &mut Ui, rect: Rect, scenery: &Scenery<'_>) {
+        const TOOLS: [Tool; 4] = [Tool::Select, Tool::Move, Tool::Turn, Tool::Size];
+        let room = Rect::from_min_size(rect.min + vec2(6.0, 34.0), vec2(30.0, 150.0));
+        if room.bottom() > rect.bottom() - 60.0 {
+            return;
+        }
+        let back = ui.painter().add(egui::Shape::Noop);
+        let column = UiBuilder::new().max_rect(room).layout(Layout::top_down(Align::Min));
+        let shown = ui.scope_builder(column, |ui| {
+            ui.spacing_mut().item_spacing.y = 2.0;
+            for tool in TOOLS {
+                tool_button(ui, scenery, ViewCommand::Tool(tool), scenery.tool == tool);
+            }
+            tool_button(ui, scenery, ViewCommand::ToggleLocalAxes, scenery.local_axes);
+        });
+        let color = color32(scenery.context.palette().label_back);
+        ui.painter().set(back, egui::Shape::rect_filled(shown.response.rect, 3.0, color));
+    }
+
+    /// Dragged, it takes the view to another place in the window.
+    fn grip(&self, ui: &mut Ui, asked: &mut Asked) {
+        let (rect, response) = ui.allocate_exact_size(vec2(12.0, 18.0), egui::Sense::drag());
+        let color = ui.style().interact(&response).text_color();
+        for (column, row) in [(0, 0), (1, 0), (0, 1), (1, 1), (0, 2), (1, 2)] {
+            let at = rect.center() + vec2(column as f32 * 4.0 - 2.0, row as f32 * 4.0 - 4.0);
+            ui.painter().circle_filled(at, 1.1, color);
+        }
+        let name = format!("Move {} view", look_name(&self.camera));
+        crate::gui::widgets::name_button(ui, &response, &name, false);
+        let response = response.on_hover_cursor(egui::CursorIcon::Grab);
+        asked.moved = response.on_hover_text("Drag: put this view elsewhere").drag_started();
+    }
+
     /// Double click maximises; a click lets choose another direction.
-    fn title(&mut self, ui: &mut Ui, asked: &mut Asked) {
+    fn title(&mut self, ui: &mut Ui, scenery: &Scenery<'_>, asked: &mut Asked) {
         let name = look_name(&self.camera);
         let title = Button::new(RichText::new(name).strong()).frame_when_inactive(false);
-        let (response, _) = egui::containers::menu::MenuButton::from_button(title).ui(ui, |ui| {
-            ui.set_min_width(130.0);
-            if ui.selectable_label(name == "Perspective", "Perspective").clicked() {
-                self.look_from(None);
-                asked.activate = true;
-            }
-            for axis in AxisView::ALL {
-                if ui.selectable_label(name == axis.label(), axis.label()).clicked() {
-                    self.look_from(Some(axis));
-                    asked.activate = true;
-                }
-            }
-            ui.separator();
-            let mut parallel = self.camera.projection == Projection::Orthographic;
-            if ui.checkbox(&mut parallel, "Parallel projection").changed() {
-                self.camera.projection =
-                    if parallel { Projection::Orthographic } else { Projection::Perspective };
-            }
-        });
+        let config = egui::containers::menu::MenuConfig::new()
+            .close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside);
+        let (response, _) =
+            egui::containers::menu::MenuButton::from_button(title).config(config).ui(ui, |ui| {
+                ui.set_min_width(150.0);
+                self.directions(ui, name, asked);
+                ui.separator();
+                self.viewpoints(ui, scenery, asked);
+            });
         let response =
             response.on_hover_text("Click: look from another side. Double click: fill the middle (M).");
         if response.double_clicked() {
             egui::Popup::close_all(ui.ctx());
             asked.maximize = true;
         }
+    }
+
+    fn directions(&mut self, ui: &mut Ui, name: &str, asked: &mut Asked) {
+        if ui.selectable_label(name == "Perspective", "Perspective").clicked() {
+            self.look_from(None);
+            asked.activate = true;
+            ui.close();
+        }
+        for axis in AxisView::ALL {
+            if ui.selectable_label(name == axis.label(), axis.label()).clicked() {
+                self.look_from(Some(axis));
+                asked.activate = true;
+                ui.close();
+            }
+        }
+        ui.separator();
+        let mut parallel = self.camera.projection == Projection::Orthographic;
+        if ui.checkbox(&mut parallel, "Parallel projection").changed() {
+            self.camera.projection =
+                if parallel { Projection::Orthographic } else { Projection::Perspective };
+        }
+    }
+
+    /// The viewpoints saved with the scene, and a field to save this one.
+    fn viewpoints(&mut self, ui: &mut Ui, scenery: &Scenery<'_>, asked: &mut Asked) {
+        let saved = scenery.context.session.document().viewpoints();
+        for (index, viewpoint) in saved.iter().enumerate() {
+            ui.horizontal(|ui| {
+                if ui.button(&viewpoint.name).on_hover_text("Look from there").clicked() {
+                    self.camera = Camera::of_viewpoint(viewpoint);
+                    self.follow = None;
+                    asked.activate = true;
+                    ui.close();
+                }
+                let drop = ui.small_button("×").on_hover_text("Forget this viewpoint");
+                let name = format!("Forget viewpoint {}", viewpoint.name);
+                crate::gui::widgets::name_button(ui, &drop, &name, false);
+                if drop.clicked() {
+                    let mut left = saved.clone();
+                    left.remove(index);
+                    keep(scenery, left);
+                }
+            });
+        }
+        ui.horizontal(|ui| {
+            let field = egui::TextEdit::singleline(&mut self.viewpoint_name).desired_width(90.0);
+            let field = ui.add(field.hint_text("Name"));
+            let field = field.on_hover_text("What to call the present look; it is saved with the scene");
+            field.widget_info(|| {
+                egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Name of the viewpoint")
+            });
+            let enter = field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
+            let name = self.viewpoint_name.trim().to_owned();
+            let save = ui.add_enabled(!name.is_empty(), Button::new("Save viewpoint"));
+            if (save.clicked() || enter) && !name.is_empty() {
+                let others = saved.iter().filter(|other| other.name != name).cloned();
+                let all = others.chain([self.camera.viewpoint(&name)]).collect();
+                keep(scenery, all);
+                self.viewpoint_name.clear();
+                ui.close();
+            }
+        });
     }
 
     fn overlay_button(&mut self, ui: &mut Ui, scenery: &Scenery<'_>, asked: &mut Asked) {
@@ -110,17 +201,28 @@ impl Pane {
         crate::gui::widgets::name_button(ui, &response, &name, false);
     }
 
+    /// Which body the view follows; a click lets it go.
+    fn followed(&mut self, ui: &mut Ui, scenery: &Scenery<'_>, asked: &mut Asked) {
+        let Some(name) = self.follow.and_then(|follow| scenery.shown.name(follow.key)) else { return };
+        let button = ui.add(Button::new(format!("follows {name} ×")).frame_when_inactive(false));
+        if button.on_hover_text("The view moves with this body. Click: no longer (Shift+F)").clicked() {
+            self.follow = None;
+            asked.activate = true;
+        }
+    }
+
     /// Right click in a view.
     pub(super) fn context_menu(response: &egui::Response, scenery: &Scenery<'_>) {
-        const COMMANDS: [Command; 8] = [
-            Command::FrameSelection,
-            Command::FrameAll,
-            Command::Rename,
-            Command::Duplicate,
-            Command::Delete,
-            Command::Hide,
-            Command::ShowAll,
-            Command::SelectNone,
+        const COMMANDS: [Command; 9] = [
+            Command::View(ViewCommand::FrameSelection),
+            Command::View(ViewCommand::Follow),
+            Command::View(ViewCommand::FrameAll),
+            Command::Window(WindowCommand::Rename),
+            Command::Session(SessionCommand::Duplicate),
+            Command::Session(SessionCommand::Delete),
+            Command::Session(SessionCommand::Hide),
+            Command::Session(SessionCommand::ShowAll),
+            Command::Session(SessionCommand::SelectNone),
         ];
         response.context_menu(|ui| {
             ui.set_min_width(200.0);
@@ -129,4 +231,19 @@ impl Pane {
             });
         });
     }
+}
+
+fn tool_button(ui: &mut Ui, scenery: &Scenery<'_>, command: ViewCommand, chosen: bool) {
+    let Some(info) = editor::info(command) else { return };
+    let response = icon_button(ui, info.label, chosen, |painter, square, color| {
+        icons::paint(painter, square, command.into(), color);
+    });
+    if response.on_hover_text(info.tooltip(scenery.context.session)).clicked() {
+        scenery.context.outbox.command(command);
+    }
+}
+
+fn keep(scenery: &Scenery<'_>, viewpoints: Vec<Viewpoint>) {
+    let edit = Edit::Viewpoints(viewpoints);
+    scenery.context.outbox.act(editor::Action::Edit { edit, gesture: None });
 }

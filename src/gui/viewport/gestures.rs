@@ -1,16 +1,18 @@
 //! Mouse and keys in a view: turn, move and magnify it; point at, select and drag bodies.
 
-use egui::{Align2, FontId, Key, PointerButton, Pos2, Rect, Response, Stroke, StrokeKind, Ui};
+use egui::{CursorIcon, Key, PointerButton, Pos2, Rect, Response, Stroke, StrokeKind, Ui};
 use glam::{DVec2, DVec3};
 
+use super::manipulate::{Asked, Manipulation};
 use super::pane::Pane;
-use super::{Scenery, ndc};
-use crate::editor::{Action, Drag, Gesture};
-use crate::gui::colors::color32;
+use super::{Scenery, gizmo, ndc};
+use crate::editor::{Action, Drag, Gesture, ViewCommand};
 use crate::gui::context::Message;
-use crate::gui::numbers;
-use crate::scene::NodeKey;
-use crate::view::{Hit, Projection, ViewInput, Viewport, drag_in_plane, pick, pick_rect, snap, snap_step};
+use crate::scene::{NodeKey, Shape};
+use crate::view::{
+    Axis, Grip, Handle, Hit, Knob, Projection, Subject, ViewInput, Viewport, handle_at, knobs, pick,
+    pick_rect, snap_step,
+};
 
 /// Radians that the scene turns per point of dragging.
 const TURN_PER_POINT: f64 = 0.008;
@@ -29,18 +31,19 @@ const DRAG_GESTURE: u64 = 0x6472_6167_0000;
 pub struct Gestures {
     /// Corners of a selection rectangle.
     rubber: Option<(Pos2, Pos2)>,
-    moving: Option<Moving>,
+    /// A handle or body that is being dragged.
+    pub(super) pulling: Option<Manipulation>,
     /// Where the last click was, and how many went to that place.
     last_click: Option<(Pos2, usize)>,
     hover: Option<(HoverKey, Option<Hover>)>,
 }
 
-struct Moving {
-    drag: Drag,
-    /// Where the pointer took hold, and the place in the world it drags.
-    from: DVec2,
-    grabbed: DVec3,
-    offset: DVec3,
+/// The handles of a view in one turn of the window.
+pub(super) struct Handles {
+    pub subject: Subject,
+    pub knobs: Vec<Knob>,
+    /// The one under the pointer, or being dragged.
+    pub active: Option<Handle>,
 }
 
 /// What the pointer is over.
@@ -60,44 +63,79 @@ struct HoverKey {
 
 impl Gestures {
     pub fn is_dragging(&self) -> bool {
-        self.moving.is_some() || self.rubber.is_some()
+        self.pulling.is_some() || self.rubber.is_some()
     }
 }
 
 impl Pane {
-    /// Takes in the mouse and the keys; returns what the pointer is over.
+    /// Takes in the mouse and the keys; returns what the pointer is over, and the handles to draw.
     pub(super) fn handle(
         &mut self,
         ui: &Ui,
         response: &Response,
         rect: Rect,
         scenery: &Scenery<'_>,
-    ) -> Option<Hover> {
+    ) -> (Option<Hover>, Option<Handles>) {
         self.move_camera(ui, response, rect);
         let viewport = scenery.input(self, rect, ui.pixels_per_point()).viewport;
         self.keys(ui, response, scenery, viewport);
         let input = scenery.input(self, rect, ui.pixels_per_point());
-        let hover = self.hover(response, rect, scenery, &input);
-        if response.clicked() {
+        let handles = self.handles(response, rect, scenery, &input);
+        let on_handle = handles.as_ref().is_some_and(|handles| handles.active.is_some());
+        if on_handle {
+            ui.set_cursor_icon(CursorIcon::Grab);
+        }
+        let hover = if on_handle { None } else { self.hover(response, rect, scenery, &input) };
+        // Enter, which takes a typed number, is a click of what has the keyboard
+        if response.clicked() && !self.gestures.is_dragging() {
             response.request_focus();
             self.click(ui, response, rect, scenery, &input);
         }
+        if response.secondary_clicked() {
+            point_out(response, rect, scenery, &input);
+        }
         if response.double_clicked() && hover.is_some() {
-            scenery.context.outbox.command(crate::editor::Command::FrameSelection);
+            scenery.context.outbox.command(ViewCommand::FrameSelection);
         }
         if response.drag_started_by(PointerButton::Primary) {
+            // what is typed now is meant for the drag
+            response.request_focus();
             self.take_hold(ui, rect, scenery, &input);
         }
-        if self.gestures.is_dragging() && ui.input(|input| input.key_pressed(Key::Escape)) {
-            self.give_up(scenery);
-        }
-        if response.dragged_by(PointerButton::Primary) {
-            self.pull(ui, response, rect, scenery, &input);
+        if self.gestures.is_dragging() {
+            self.drag(ui, response, scenery, &input);
         }
         if response.drag_stopped_by(PointerButton::Primary) {
             self.let_go(ui, rect, scenery, &input);
         }
-        hover
+        (hover, handles)
+    }
+
+    /// The handles of the selection, and which one the pointer is over.
+    fn handles(
+        &self,
+        response: &Response,
+        rect: Rect,
+        scenery: &Scenery<'_>,
+        input: &ViewInput<'_>,
+    ) -> Option<Handles> {
+        if self.gestures.rubber.is_some() {
+            return None;
+        }
+        let subject = gizmo::subject(scenery, &input.camera, input.viewport)?;
+        let mut knobs = knobs(&subject, &input.camera, input.viewport);
+        let active = match &self.gestures.pulling {
+            Some(pulling) => {
+                // only what is dragged: the others would be in the way of what one looks at
+                knobs.retain(|knob| knob.handle == pulling.grip.handle);
+                Some(pulling.grip.handle)
+            }
+            None => {
+                let over = response.hover_pos().filter(|_| response.hovered() && !response.dragged());
+                over.and_then(|at| handle_at(&knobs, points(rect, at)))
+            }
+        };
+        Some(Handles { subject, knobs, active })
     }
 
     fn move_camera(&mut self, ui: &Ui, response: &Response, rect: Rect) {
@@ -234,94 +272,125 @@ impl Pane {
         }
     }
 
-    /// A press that became a drag: moves bodies in views along an axis, else draws a rectangle.
+    /// A press that became a drag: takes a handle or a body, else draws a rectangle.
     fn take_hold(&mut self, ui: &Ui, rect: Rect, scenery: &Scenery<'_>, input: &ViewInput<'_>) {
         let Some(at) = ui.input(|input| input.pointer.press_origin()) else { return };
         let from = ndc(&input.viewport, rect, at);
-        let hits = pick(input, from);
-        let movable = self.camera.projection == Projection::Orthographic;
-        match movable.then(|| self.grab(&hits, scenery)).flatten() {
-            Some((_, hit)) if self.waits_for_start(hit.key, scenery) => {
+        let taken = self.take_handle(rect, at, scenery, input);
+        let grabbed = || self.grab(&pick(input, from), scenery);
+        match taken.map_or_else(grabbed, Taken::Pull) {
+            Taken::Pull(pulling) => self.gestures.pulling = Some(*pulling),
+            Taken::Refused => {
                 let text = "Moving bodies are dragged where they start: Reset first (R)";
                 scenery.context.outbox.send(Message::Tell(text.to_owned()));
             }
-            Some((drag, hit)) => {
-                let moving = Moving { drag, from, grabbed: hit.point, offset: DVec3::ZERO };
-                self.gestures.moving = Some(moving);
+            Taken::Body(drag, hit) => {
+                let subject = Subject {
+                    tool: scenery.tool,
+                    pivot: drag.origin(),
+                    axes: Axis::ALL.map(Axis::unit),
+                    sides: None,
+                    vector: None,
+                };
+                let grip = Grip::take_body(subject, hit.point, from);
+                let pulling = Manipulation::new(drag, grip, Some(hit.key), points(rect, at));
+                self.gestures.pulling = Some(pulling);
             }
-            None => self.gestures.rubber = Some((at, at)),
+            Taken::Nothing => self.gestures.rubber = Some((at, at)),
         }
     }
 
-    /// What to drag: the selection, if some of it is under the pointer; else the moving body there.
-    fn grab(&self, hits: &[Hit], scenery: &Scenery<'_>) -> Option<(Drag, Hit)> {
+    /// The handle under the pointer.
+    fn take_handle(
+        &self,
+        rect: Rect,
+        at: Pos2,
+        scenery: &Scenery<'_>,
+        input: &ViewInput<'_>,
+    ) -> Option<Box<Manipulation>> {
+        let subject = gizmo::subject(scenery, &input.camera, input.viewport)?;
+        let knobs = knobs(&subject, &input.camera, input.viewport);
+        let handle = handle_at(&knobs, points(rect, at))?;
         let session = scenery.context.session;
-        let gesture = Gesture(DRAG_GESTURE + self.index as u64);
-        if let Some(hit) = hits.iter().find(|hit| session.selection().contains(hit.key)) {
-            return Some((Drag::of_selection(session, gesture)?, *hit));
+        let drag = match handle {
+            Handle::MapSide(_) => Drag::of_map(self.gesture()),
+            _ => Drag::of_selection(session, self.gesture())?,
+        };
+        let from = ndc(&input.viewport, rect, at);
+        let grip = Grip::take(handle, subject, &input.camera, input.viewport, from)?;
+        Some(Box::new(Manipulation::new(drag, grip, None, points(rect, at))))
+    }
+
+    /// What a body under the pointer drags: the selection, if it is in it, else itself if it moves. Plates are
+    /// dragged by their handles alone: a floor fills the view, where most drags are meant to be rectangles.
+    fn grab(&self, hits: &[Hit], scenery: &Scenery<'_>) -> Taken {
+        let session = scenery.context.session;
+        let is_plate = |key: NodeKey| {
+            scenery.shown.body(key).is_some_and(|body| !matches!(body.shape, Shape::Sphere { .. }))
+        };
+        let selected = |hit: &&Hit| session.selection().contains(hit.key) && !is_plate(hit.key);
+        let moves = |hit: &&Hit| scenery.shown.body(hit.key).is_some_and(crate::scene::Body::is_dynamic);
+        let (drag, hit) = match (hits.iter().find(selected), hits.first().filter(moves)) {
+            (Some(hit), _) => (Drag::of_selection(session, self.gesture()), *hit),
+            (None, Some(hit)) => (Drag::of(session, &[hit.key], self.gesture()), *hit),
+            (None, None) => return Taken::Nothing,
+        };
+        let Some(drag) = drag else { return Taken::Nothing };
+        if self.waits_for_start(&drag, scenery) {
+            return Taken::Refused;
         }
-        let hit = hits.first()?;
-        scenery.shown.body(hit.key).filter(|body| body.is_dynamic())?;
-        scenery.context.outbox.act(Action::Select(vec![hit.key]));
-        Some((Drag::of(session, &[hit.key], gesture)?, *hit))
+        if !session.selection().contains(hit.key) {
+            scenery.context.outbox.act(Action::Select(vec![hit.key]));
+        }
+        Taken::Body(drag, hit)
+    }
+
+    fn gesture(&self) -> Gesture {
+        Gesture(DRAG_GESTURE + self.index as u64)
     }
 
     /// Whether a body is drawn where the simulation has it, not where the document has it.
-    fn waits_for_start(&self, key: NodeKey, scenery: &Scenery<'_>) -> bool {
-        let is_dynamic = scenery.shown.body(key).is_some_and(crate::scene::Body::is_dynamic);
-        is_dynamic && !scenery.context.session.shows_start()
+    fn waits_for_start(&self, drag: &Drag, scenery: &Scenery<'_>) -> bool {
+        drag.bodies().iter().any(crate::scene::Body::is_dynamic) && !scenery.context.session.shows_start()
     }
 
-    fn pull(
-        &mut self,
-        ui: &Ui,
-        response: &Response,
-        rect: Rect,
-        scenery: &Scenery<'_>,
-        input: &ViewInput<'_>,
-    ) {
-        let Some(at) = response.interact_pointer_pos() else { return };
-        if let Some((_, corner)) = &mut self.gestures.rubber {
+    /// One turn of the window in a drag.
+    fn drag(&mut self, ui: &Ui, response: &Response, scenery: &Scenery<'_>, input: &ViewInput<'_>) {
+        if let (Some((_, corner)), Some(at)) = (&mut self.gestures.rubber, response.interact_pointer_pos()) {
             *corner = at;
         }
-        let Some(moving) = &mut self.gestures.moving else { return };
-        let to = ndc(&input.viewport, rect, at);
-        let mut offset =
-            drag_in_plane(&input.camera, input.viewport.aspect(), moving.grabbed, moving.from, to);
-        let flip = ui.input(|input| input.modifiers.command);
-        if scenery.snapping != flip {
-            let step = snap_step(&input.camera, input.viewport);
-            let start = moving.drag.origin();
-            let free = offset;
-            offset = snap(start + free, step) - start;
-            // along the view nothing was dragged, so nothing snaps
-            let back = input.camera.backward();
-            offset -= back * offset.dot(back);
+        let Some(pulling) = &mut self.gestures.pulling else {
+            if ui.input(|input| input.key_pressed(Key::Escape)) {
+                self.gestures.rubber = None;
+            }
+            return;
+        };
+        let asked = pulling.keys(ui);
+        if asked == Asked::GiveUp {
+            // everything is again as it was before the drag, whose rest does nothing
+            scenery.context.outbox.act(Action::AbandonGesture);
+            self.gestures.pulling = None;
+            return;
         }
-        if offset != moving.offset {
-            moving.offset = offset;
-            scenery.context.outbox.act(moving.drag.move_by(offset));
+        if let Some(at) = response.interact_pointer_pos() {
+            pulling.follow(ui, points(response.rect, at), &input.camera, input.viewport, scenery);
+        }
+        if asked == Asked::Confirm {
+            pulling.confirm(scenery);
+            self.gestures.pulling = None;
         }
     }
 
     fn let_go(&mut self, ui: &Ui, rect: Rect, scenery: &Scenery<'_>, input: &ViewInput<'_>) {
         let outbox = scenery.context.outbox;
-        if self.gestures.moving.take().is_some() {
-            outbox.act(Action::EndGesture);
+        if let Some(pulling) = self.gestures.pulling.take() {
+            pulling.confirm(scenery);
         }
         if let Some((a, b)) = self.gestures.rubber.take() {
             let keys = pick_rect(input, ndc(&input.viewport, rect, a), ndc(&input.viewport, rect, b));
             let add = ui.input(|input| input.modifiers.command || input.modifiers.shift);
             outbox.act(if add { Action::AddToSelection(keys) } else { Action::Select(keys) });
         }
-    }
-
-    /// Escape: everything is again as it was before the drag, whose rest does nothing.
-    fn give_up(&mut self, scenery: &Scenery<'_>) {
-        if self.gestures.moving.take().is_some() {
-            scenery.context.outbox.act(Action::AbandonGesture);
-        }
-        self.gestures.rubber = None;
     }
 
     pub(super) fn draw_rubber_band(&self, ui: &Ui, rect: Rect) {
@@ -332,28 +401,30 @@ impl Pane {
         painter.rect_filled(band, 0.0, accent.gamma_multiply(0.12));
         painter.rect_stroke(band, 0.0, Stroke::new(1.0, accent), StrokeKind::Inside);
     }
+}
 
-    /// How far a drag has gone and where to, in numbers.
-    pub(super) fn draw_drag_text(&self, ui: &Ui, rect: Rect, scenery: &Scenery<'_>) {
-        let Some(moving) = &self.gestures.moving else { return };
-        let triple = |v: DVec3| {
-            let [x, y, z] = v.to_array().map(|value| numbers::significant(value, 5));
-            format!("({x}, {y}, {z})")
-        };
-        let snapping = if scenery.snapping { " · snapping" } else { "" };
-        let place = moving.drag.origin() + moving.offset;
-        let text = format!(
-            "to {} m\nby {} m{snapping} · Esc cancels, Ctrl switches snapping",
-            triple(place),
-            triple(moving.offset)
-        );
-        let palette = scenery.context.palette();
-        let painter = ui.painter_at(rect);
-        let at = rect.center_bottom() - egui::vec2(0.0, 12.0);
-        let font = FontId::proportional(12.0);
-        let galley = painter.layout_no_wrap(text, font, color32(palette.text));
-        let place = Align2::CENTER_BOTTOM.anchor_size(at, galley.size());
-        painter.rect_filled(place.expand(5.0), 3.0, color32(palette.label_back));
-        painter.galley(place.min, galley, color32(palette.text));
+/// What a drag took hold of.
+enum Taken {
+    Pull(Box<Manipulation>),
+    Body(Drag, Hit),
+    /// A moving body that is not where it starts.
+    Refused,
+    Nothing,
+}
+
+/// A right click selects what it points at, unless that is part of the selection: its menu is about that.
+fn point_out(response: &Response, rect: Rect, scenery: &Scenery<'_>, input: &ViewInput<'_>) {
+    let Some(at) = response.interact_pointer_pos() else { return };
+    let hits = pick(input, ndc(&input.viewport, rect, at));
+    let selection = scenery.context.session.selection();
+    if let Some(hit) = hits.first()
+        && !hits.iter().any(|hit| selection.contains(hit.key))
+    {
+        scenery.context.outbox.act(Action::Select(vec![hit.key]));
     }
+}
+
+/// Points from a view's top left corner.
+fn points(rect: Rect, at: Pos2) -> DVec2 {
+    DVec2::new(f64::from(at.x - rect.min.x), f64::from(at.y - rect.min.y))
 }

@@ -3,28 +3,28 @@
 mod canvas;
 mod corner;
 mod gestures;
+mod gizmo;
+mod manipulate;
 mod pane;
 
 use std::sync::Arc;
 
-use egui::{Rect, Ui, vec2};
+use egui::{Rect, Ui};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use super::context::{AppContext, Message, Shown};
 use crate::design::Eye;
-use crate::editor::Command;
+use crate::editor::ViewCommand;
 use crate::record::{EventRow, Frame};
 use crate::scene::{Motion, NodeKey};
 use crate::view::{
-    self, Bounds, Camera, OVERLAYS, OverlaySet, Projection, Trails, VIEWS, ViewInput, Viewport, scene_bounds,
+    self, Bounds, Camera, OVERLAYS, OverlaySet, Projection, Tool, Trails, VIEWS, ViewInput, Viewport,
+    scene_bounds,
 };
 
 pub use canvas::Canvas;
-use pane::Pane;
-
-/// Points between views.
-const GAP: f32 = 2.0;
+use pane::{Following, Pane};
 
 /// How many views are shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -53,6 +53,9 @@ pub struct Views {
     /// What the layout was before one view was maximised.
     before_maximized: Layout,
     pub snapping: bool,
+    pub tool: Tool,
+    /// Whether handles lie along the axes of the body, not of the world.
+    pub local_axes: bool,
     trails: Trails,
     canvas: Canvas,
     start: StartFrame,
@@ -75,6 +78,8 @@ struct Scenery<'a> {
     trails: &'a Trails,
     canvas: &'a Canvas,
     snapping: bool,
+    tool: Tool,
+    local_axes: bool,
 }
 
 impl Scenery<'_> {
@@ -108,6 +113,8 @@ impl Views {
             active: 0,
             before_maximized: Layout::Four,
             snapping: remembered.snapping,
+            tool: Tool::default(),
+            local_axes: false,
             trails: Trails::default(),
             canvas,
             start: StartFrame::default(),
@@ -147,6 +154,7 @@ impl Views {
         self.trails.clear();
         for pane in &mut self.panes {
             pane.wants_framing = true;
+            pane.follow = None;
         }
     }
 
@@ -155,12 +163,28 @@ impl Views {
         self.trails.push(frame);
     }
 
-    pub fn show(&mut self, ui: &mut Ui, context: &AppContext<'_>) {
+    /// Whether the layout shows a view.
+    pub fn is_shown(&self, index: usize) -> bool {
+        match self.layout {
+            Layout::One => index == self.active,
+            Layout::Two if self.active == 0 => index < 2,
+            Layout::Two => index == 0 || index == self.active,
+            Layout::Four => true,
+        }
+    }
+
+    pub fn title(&self, index: usize) -> &'static str {
+        self.panes.get(index).map_or("View", |pane| look_name(&pane.camera))
+    }
+
+    /// Shows one view in all the room there is; whether its grip is dragged, to put it elsewhere.
+    pub fn show(&mut self, ui: &mut Ui, index: usize, context: &AppContext<'_>) -> bool {
         let area = ui.available_rect_before_wrap();
         ui.advance_cursor_after_rect(area);
         ui.painter().rect_filled(area, 0.0, super::colors::tones(ui).line);
         let Some(shown) = context.shown else {
-            return pane::nothing_to_show(ui, area, context);
+            pane::nothing_to_show(ui, area, context, index == self.active);
+            return false;
         };
         let frame = self.start.frame(context, shown);
         let scenery = Scenery {
@@ -171,48 +195,56 @@ impl Views {
             trails: &self.trails,
             canvas: &self.canvas,
             snapping: self.snapping,
+            tool: self.tool,
+            local_axes: self.local_axes,
         };
-        let rects = rects(self.layout, self.active, area);
-        for (index, rect) in &rects {
-            let rect = snapped(*rect, ui.pixels_per_point());
-            let pane = &mut self.panes[*index];
-            let outcome = pane.show(ui, rect, &scenery, *index == self.active && rects.len() > 1);
-            if outcome.activated {
-                self.active = *index;
-            }
-            if outcome.maximize {
-                self.active = *index;
-                context.outbox.command(Command::MaximizeView);
-            }
+        let rect = snapped(area, ui.pixels_per_point());
+        let marked = index == self.active && self.layout != Layout::One;
+        let Some(pane) = self.panes.get_mut(index) else { return false };
+        let outcome = pane.show(ui, rect, &scenery, (marked, index == self.active));
+        if outcome.activated || outcome.maximize {
+            self.active = index;
         }
+        if outcome.maximize {
+            context.outbox.command(ViewCommand::Maximize);
+        }
+        outcome.moved
     }
 
-    /// Carries out a command about views; `false` if it is none.
-    pub fn execute(&mut self, command: Command, context: &AppContext<'_>) -> bool {
+    /// Carries out a command about views.
+    pub fn execute(&mut self, command: ViewCommand, context: &AppContext<'_>) {
         match command {
-            Command::FrameAll => self.frame(context, None, Some(self.active)),
-            Command::FrameSelection => {
+            ViewCommand::FrameAll => self.frame(context, None, Some(self.active)),
+            ViewCommand::FrameSelection => {
                 let keys = context.session.selection().keys();
                 self.frame(context, Some(keys), Some(self.active));
             }
-            Command::ViewPerspective => self.panes[self.active].look_from(None),
-            Command::ViewAlong(axis) => self.panes[self.active].look_from(Some(axis)),
-            Command::ToggleProjection => {
+            ViewCommand::FrameMap => {
+                if let Some(shown) = context.shown {
+                    let pane = &mut self.panes[self.active];
+                    let map = Bounds { min: DVec3::ZERO, max: shown.scene.map.size };
+                    pane.camera.frame(map, pane.aspect());
+                }
+            }
+            ViewCommand::Follow => self.follow(context),
+            ViewCommand::Perspective => self.panes[self.active].look_from(None),
+            ViewCommand::Along(axis) => self.panes[self.active].look_from(Some(axis)),
+            ViewCommand::ToggleProjection => {
                 let camera = &mut self.panes[self.active].camera;
                 camera.projection = match camera.projection {
                     Projection::Perspective => Projection::Orthographic,
                     Projection::Orthographic => Projection::Perspective,
                 };
             }
-            Command::MaximizeView => {
+            ViewCommand::Maximize => {
                 let one = self.layout == Layout::One;
                 let next = if one { self.before_maximized } else { Layout::One };
                 self.set_layout(next);
             }
-            Command::ShowOneView => self.set_layout(Layout::One),
-            Command::ShowTwoViews => self.set_layout(Layout::Two),
-            Command::ShowFourViews => self.set_layout(Layout::Four),
-            Command::ToggleSnapping => {
+            ViewCommand::OneView => self.set_layout(Layout::One),
+            ViewCommand::TwoViews => self.set_layout(Layout::Two),
+            ViewCommand::FourViews => self.set_layout(Layout::Four),
+            ViewCommand::ToggleSnapping => {
                 self.snapping = !self.snapping;
                 let text = if self.snapping {
                     "Snapping is on: dragged bodies stop at round steps (G)"
@@ -221,14 +253,27 @@ impl Views {
                 };
                 context.outbox.send(Message::Tell(text.to_owned()));
             }
-            Command::ToggleOverlay(index) => {
+            ViewCommand::Tool(tool) => self.tool = tool,
+            ViewCommand::ToggleLocalAxes => self.local_axes = !self.local_axes,
+            ViewCommand::ToggleOverlay(index) => {
                 if let Some(overlay) = OVERLAYS.get(index) {
                     self.panes[self.active].overlays.toggle(overlay.id);
                 }
             }
-            _ => return false,
         }
-        true
+    }
+
+    /// The active view follows what was selected last, or nothing any more.
+    fn follow(&mut self, context: &AppContext<'_>) {
+        let pane = &mut self.panes[self.active];
+        if pane.follow.take().is_some() {
+            return;
+        }
+        let bodies = |key: &NodeKey| context.shown.is_some_and(|shown| shown.body(*key).is_some());
+        match context.session.selection().keys().iter().rev().copied().find(bodies) {
+            Some(key) => pane.follow = Some(Following { key, last: None }),
+            None => context.outbox.send(Message::Warn("Select the body to follow first".to_owned())),
+        }
     }
 
     fn set_layout(&mut self, layout: Layout) {
@@ -331,32 +376,6 @@ fn bounds(scene: &crate::scene::Scene, frame: &Frame, keys: Option<&[NodeKey]>) 
 fn padded(bounds: Bounds, selection: bool) -> Bounds {
     let factor = if selection { 1.6 } else { 1.0 };
     Bounds::around(bounds.center(), bounds.size() * 0.5 * factor)
-}
-
-/// Where the views are, in drawing order.
-fn rects(layout: Layout, active: usize, area: Rect) -> Vec<(usize, Rect)> {
-    let half = (area.size() - vec2(GAP, GAP)) / 2.0;
-    let quarter = |column: f32, row: f32| {
-        let min = area.min + vec2(column * (half.x + GAP), row * (half.y + GAP));
-        Rect::from_min_size(min, half)
-    };
-    match layout {
-        Layout::One => vec![(active, area)],
-        Layout::Two => {
-            let second = if active == 0 { 1 } else { active };
-            let side = |column: f32| {
-                let min = area.min + vec2(column * (half.x + GAP), 0.0);
-                Rect::from_min_size(min, vec2(half.x, area.height()))
-            };
-            vec![(0, side(0.0)), (second, side(1.0))]
-        }
-        Layout::Four => vec![
-            (0, quarter(0.0, 0.0)),
-            (1, quarter(1.0, 0.0)),
-            (2, quarter(0.0, 1.0)),
-            (3, quarter(1.0, 1.0)),
-        ],
-    }
 }
 
 /// On whole pixels, so that pictures are not resampled.

@@ -4,7 +4,7 @@ use egui::{Align2, FontId, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, 
 use glam::DVec3;
 
 use super::gestures::{Gestures, Hover};
-use super::{Scenery, bounds, look_name};
+use super::{Scenery, bounds, gizmo, look_name};
 use crate::gui::colors::{color32, tones};
 use crate::gui::context::{AppContext, Message};
 use crate::gui::numbers;
@@ -18,6 +18,9 @@ pub struct Pane {
     pub overlays: OverlaySet,
     /// Look at all there is as soon as the view's size is known.
     pub wants_framing: bool,
+    pub(super) follow: Option<Following>,
+    /// What is being typed to save the present look under.
+    pub(super) viewpoint_name: String,
     pub(super) gestures: Gestures,
     cache: ListCache,
     size: egui::Vec2,
@@ -25,11 +28,21 @@ pub struct Pane {
     pub(super) id: Option<egui::Id>,
 }
 
+/// A body that a view moves along with.
+#[derive(Clone, Copy)]
+pub(super) struct Following {
+    pub key: NodeKey,
+    /// Where it was in the last picture; `None` before the first.
+    pub last: Option<DVec3>,
+}
+
 /// What a turn of a view asks of the others.
 #[derive(Default)]
 pub struct Outcome {
     pub activated: bool,
     pub maximize: bool,
+    /// The grip is dragged: the view goes to another place in the window.
+    pub moved: bool,
 }
 
 impl Pane {
@@ -40,6 +53,8 @@ impl Pane {
             camera: Camera::default(),
             overlays: preset.overlay_set(),
             wants_framing: true,
+            follow: None,
+            viewpoint_name: String::new(),
             gestures: Gestures::default(),
             cache: ListCache::default(),
             size: egui::vec2(400.0, 300.0),
@@ -51,20 +66,28 @@ impl Pane {
         f64::from(self.size.x.max(1.0)) / f64::from(self.size.y.max(1.0))
     }
 
-    pub fn show(&mut self, ui: &mut Ui, rect: Rect, scenery: &Scenery<'_>, marked: bool) -> Outcome {
+    /// `tools` says whether the choice of handles is shown in this view.
+    pub fn show(
+        &mut self,
+        ui: &mut Ui,
+        rect: Rect,
+        scenery: &Scenery<'_>,
+        (marked, tools): (bool, bool),
+    ) -> Outcome {
         self.size = rect.size();
         if std::mem::take(&mut self.wants_framing)
             && let Some(bounds) = bounds(&scenery.shown.scene, &scenery.frame, None)
         {
             self.camera = self.preset.camera(bounds, self.aspect());
         }
+        self.go_along(scenery);
         let id = ui.scope_id().with(("view", self.index));
         self.id = Some(id);
         let response = ui.interact(rect, id, Sense::click_and_drag());
         let name = format!("{} view", look_name(&self.camera));
         response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, &name));
 
-        let hover = self.handle(ui, &response, rect, scenery);
+        let (hover, handles) = self.handle(ui, &response, rect, scenery);
         let pixels_per_point = ui.pixels_per_point();
         let mut input = scenery.input(self, rect, pixels_per_point);
         input.hovered = hover.as_ref().map(|hover| hover.key);
@@ -72,7 +95,13 @@ impl Pane {
         scenery.canvas.draw(ui, self.index, rect, &list);
 
         self.draw_rubber_band(ui, rect);
-        self.draw_drag_text(ui, rect, scenery);
+        let seen = (&input.camera, input.viewport);
+        if let Some(handles) = &handles {
+            gizmo::show(ui, (id, rect), handles, seen, scenery);
+        }
+        if let Some(pulling) = &self.gestures.pulling {
+            gizmo::show_pull(ui, rect, seen, pulling, scenery);
+        }
         hover_label(ui, rect, &response, scenery, hover);
         if marked {
             let pen = Stroke::new(1.0, tones(ui).accent);
@@ -83,9 +112,26 @@ impl Pane {
             ui.painter().rect_stroke(rect.shrink(1.0), 0.0, pen, StrokeKind::Inside);
         }
         Self::context_menu(&response, scenery);
+        if tools {
+            Self::tools(ui, rect, scenery);
+        }
         let asked = self.corners(ui, rect, scenery);
         let pressed = response.is_pointer_button_down_on() || response.clicked();
-        Outcome { activated: pressed || asked.activate, maximize: asked.maximize }
+        Outcome { activated: pressed || asked.activate, maximize: asked.maximize, moved: asked.moved }
+    }
+
+    /// Moves the camera as far as the body went that it follows; at first, to that body.
+    fn go_along(&mut self, scenery: &Scenery<'_>) {
+        let Some(following) = &mut self.follow else { return };
+        let now = scenery.frame.bodies.iter().find(|body| body.key == following.key);
+        let place = now
+            .map(|body| body.position)
+            .or_else(|| scenery.shown.body(following.key).map(|body| body.position));
+        match (place, following.last.replace(place.unwrap_or_default())) {
+            (Some(place), Some(last)) => self.camera.target += place - last,
+            (Some(place), None) => self.camera.target = place,
+            (None, _) => self.follow = None,
+        }
     }
 
     pub fn look_from(&mut self, axis: Option<AxisView>) {
@@ -147,9 +193,12 @@ fn triple(place: DVec3) -> String {
 }
 
 /// In place of the views, when there is no scene to show.
-pub fn nothing_to_show(ui: &mut Ui, area: Rect, context: &AppContext<'_>) {
+pub fn nothing_to_show(ui: &mut Ui, area: Rect, context: &AppContext<'_>, says_why: bool) {
     let tones = tones(ui);
     ui.painter().rect_filled(area, 0.0, ui.visuals().panel_fill);
+    if !says_why {
+        return;
+    }
     let center = area.center();
     let font = FontId::proportional(16.0);
     let text = format!("{} cannot be shown: the file has errors", context.session.title());

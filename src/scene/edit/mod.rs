@@ -9,13 +9,15 @@ mod pen;
 mod settings;
 mod structure;
 mod style;
+mod touched;
 mod work;
 
 use glam::DVec3;
 
-use super::{Body, Document, Force, ForceKind, NodeKey, Shape, SimParams};
+use super::{Body, Document, Force, ForceKind, NodeKey, Shape, SimParams, Viewpoint};
 
 pub(super) use style::Style;
+pub use touched::Touched;
 
 /// One change of the document. Each changes only the bytes it must.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +26,8 @@ pub enum Edit {
     MapTiles([u32; 3]),
     TimeSpeed(f64),
     Params(SimParams),
+    /// All saved viewpoints.
+    Viewpoints(Vec<Viewpoint>),
     Body {
         key: NodeKey,
         change: BodyChange,
@@ -92,11 +96,12 @@ pub enum ForceChange {
     Kind(ForceKind),
 }
 
-/// A document after an edit, and the keys of what the edit added.
+/// A document after an edit, and what the edit did.
 #[derive(Clone, Debug)]
 pub struct Edited {
     pub document: Document,
     pub added: Vec<NodeKey>,
+    pub touched: Touched,
 }
 
 /// Why an edit was refused. The document is as it was.

@@ -49,6 +49,7 @@ impl Work<'_> {
             added = el.children.iter().rev().find_map(Child::element).map(|node| node.key);
             Ok(el)
         })?;
+        self.touched.keys.extend(added);
         self.added.extend(added);
         self.forget_places();
         Ok(())
@@ -63,6 +64,7 @@ impl Work<'_> {
                 Ok(pen.with_splices(el, ranges.map(|(start, end)| (start..end, Vec::new()))))
             })?;
         }
+        self.touched.keys.extend(keys);
         self.forget_places();
         Ok(())
     }
@@ -77,6 +79,7 @@ impl Work<'_> {
             added.extend(orders.into_iter().zip(copies));
         }
         added.sort_unstable();
+        self.touched.keys.extend(added.iter().map(|(_, key)| key));
         self.added.extend(added.into_iter().map(|(_, key)| key));
         Ok(())
     }
@@ -93,6 +96,7 @@ impl Work<'_> {
             let changes = copies.get(nth).map_or(&[][..], |copy| &copy.changes);
             changes.iter().try_fold(copy.clone(), |el, change| body::change(pen, &el, lead, change))
         })?;
+        self.touched.keys.extend(&added);
         self.added.extend(added);
         Ok(())
     }

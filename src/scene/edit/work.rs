@@ -3,15 +3,15 @@
 use std::sync::{Arc, OnceLock};
 
 use super::patch::{self, Changes};
-use super::pen::{Changed, Pen, Spot, check, check_vector};
+use super::pen::{Changed, Pen, Spot, check, check_text, check_vector};
 use super::style::lead_at;
-use super::{Edit, EditError, Edited, body, force, settings};
+use super::{Edit, EditError, Edited, Touched, body, cosmetic, force, settings};
 use crate::scene::document::Content;
 use crate::scene::ids::Ids;
 use crate::scene::locate::{self, Index, List};
 use crate::scene::rules::{self, Range};
 use crate::scene::tree::{Child, Children, Element, View, tag};
-use crate::scene::{Document, Names, NodeKey, number};
+use crate::scene::{Document, Names, NodeKey, number, viewpoint};
 
 /// Children of the root and of `Simulation`, in the order in which they are written.
 const SECTIONS: [&str; 6] = ["Map", "Simulation", "Primitives", "TimeSpeed", "Forces", "Solver"];
@@ -25,6 +25,7 @@ pub(super) struct Work<'d> {
     ids: [Option<Ids>; 2],
     names: [Option<Names>; 2],
     pub added: Vec<NodeKey>,
+    pub touched: Touched,
     /// All that the edit did, as long as it only changed bodies.
     changes: Option<Changes>,
 }
@@ -53,11 +54,15 @@ impl<'d> Work<'d> {
             ids: [None, None],
             names: [None, None],
             added: Vec::new(),
+            touched: Touched::default(),
             changes,
         })
     }
 
     pub fn apply(&mut self, edit: &Edit) -> Result<(), EditError> {
+        self.touched.settings |=
+            matches!(edit, Edit::MapSize(_) | Edit::MapTiles(_) | Edit::TimeSpeed(_) | Edit::Params(_));
+        self.touched.cosmetics |= matches!(edit, Edit::Viewpoints(_));
         match edit {
             Edit::MapSize(size) => {
                 check_vector("the map's size", *size, Range::Positive)?;
@@ -79,6 +84,13 @@ impl<'d> Work<'d> {
                 settings::check_params(params)?;
                 self.section(&["Simulation"], |pen, el, lead| {
                     settings::set_params(pen, el, lead, &SECTIONS, params)
+                })
+            }
+            Edit::Viewpoints(viewpoints) => {
+                viewpoints.iter().try_for_each(|viewpoint| check_text(&viewpoint.name))?;
+                let text = viewpoint::write(viewpoints);
+                self.section(&[], |pen, root, lead| {
+                    cosmetic::set(pen, root, lead, viewpoint::ATTRIBUTE, text.as_deref())
                 })
             }
             Edit::Body { key, change } => self.items_changed(List::Bodies, &[(*key, change)], body::change),
@@ -113,7 +125,8 @@ impl<'d> Work<'d> {
     /// The document after the edit, its version raised or lowered if its use of 1.1 began or ended.
     pub fn finish(mut self) -> Result<Edited, EditError> {
         if self.is_unchanged() {
-            return Ok(Edited { document: self.document.clone(), added: self.added });
+            let (document, touched) = (self.document.clone(), Touched::default());
+            return Ok(Edited { document, added: self.added, touched });
         }
         let mut document = self.make();
         if let Some(changes) = &self.changes
@@ -134,7 +147,7 @@ impl<'d> Work<'d> {
             self.section(&[], |_, root, _| Ok(with_version(pen, root, version)))?;
             document = self.make();
         }
-        Ok(Edited { document, added: self.added })
+        Ok(Edited { document, added: self.added, touched: self.touched })
     }
 
     /// Changes the element at a path below the root; those missing on the way are added if need be.
@@ -184,6 +197,7 @@ impl<'d> Work<'d> {
                 changed.iter().map(|(&at, (_, new))| (at..at + 1, vec![Child::Element(new.clone())]));
             Ok(pen.with_splices(el, splices))
         })?;
+        self.touched.keys.extend(changed.values().map(|(_, new)| new.key));
         self.changes = before.map(|mut all| {
             for (at, (old, new)) in changed {
                 let old = all.remove(&at).map_or(old, |(old, _)| old);

@@ -15,6 +15,8 @@ mod trails;
 mod velocities;
 
 use super::DrawList;
+pub use scaled_arrows::velocity_scale;
+
 use super::stage::Stage;
 
 /// One switchable layer of a picture.

@@ -2,9 +2,10 @@
 
 use glam::DVec3;
 
+use crate::scene::{Body, Motion, Scene};
 use crate::view::format::round_down_125;
 use crate::view::stage::Stage;
-use crate::view::{Arrow, Color, DrawList, format::number};
+use crate::view::{Arrow, Camera, Color, DrawList, Viewport, format::number};
 
 const MOST: usize = 5000;
 
@@ -19,15 +20,31 @@ pub(super) struct Quantity {
     pub color: Color,
 }
 
+/// How long one unit is drawn, so that the largest vector is as long as an arrow can be.
+fn metres_per_unit(largest: f64, camera: &Camera, viewport: Viewport) -> f64 {
+    // Rounded, so that arrows do not breathe with every change of the largest.
+    round_down_125(LONGEST * camera.world_per_pixel(viewport.height) / largest)
+}
+
+/// The scale of a view's velocity arrows at the start of a scene. Where nothing moves, it is such that a body
+/// as fast as the longest arrow crosses the map in four seconds.
+pub fn velocity_scale(scene: &Scene, camera: &Camera, viewport: Viewport) -> f64 {
+    let speed = |body: &Body| match body.motion {
+        Motion::Dynamic { velocity, .. } if !body.hidden => velocity.length(),
+        _ => 0.0,
+    };
+    let largest = scene.bodies.iter().map(speed).fold(0.0, f64::max);
+    let usual = 0.25 * scene.map.size.max_element();
+    metres_per_unit(if largest.is_finite() && largest > 0.0 { largest } else { usual }, camera, viewport)
+}
+
 /// Adds an arrow for each (place, vector), and a line with the scale to the legend.
 pub(super) fn add(stage: &Stage<'_>, list: &mut DrawList, quantity: &Quantity, vectors: &[(DVec3, DVec3)]) {
     let largest = vectors.iter().map(|(_, vector)| vector.length()).fold(0.0, f64::max);
     if !(largest.is_finite() && largest > 0.0) {
         return;
     }
-    let metres_per_point = stage.camera.world_per_pixel(stage.input.viewport.height);
-    // Rounded, so that arrows do not breathe with every change of the largest.
-    let metres_per_unit = round_down_125(LONGEST * metres_per_point / largest);
+    let metres_per_unit = metres_per_unit(largest, &stage.camera, stage.input.viewport);
     for (place, vector) in vectors.iter().take(MOST) {
         let Some(direction) = vector.try_normalize() else { continue };
         let shortest = SHORTEST * stage.metres_per_point(*place);

@@ -1,0 +1,59 @@
+//! The open document with its undo, and the file it came from and goes to.
+
+use std::path::{Path, PathBuf};
+
+use super::copies::LastCopies;
+use super::disk::DiskStamp;
+use super::history::History;
+use super::trouble_list::TroubleList;
+use crate::scene::{Document, escaped};
+
+pub(super) struct OpenDocument {
+    pub history: History,
+    pub file: OpenFile,
+    /// Grows with every document that replaces another.
+    pub opened: u64,
+    /// The copies made last.
+    pub last_copies: Option<LastCopies>,
+    /// What is wrong with the scene, by the document it was found in.
+    pub troubles: TroubleList,
+}
+
+/// Where the document came from and goes to.
+pub(super) struct OpenFile {
+    pub path: Option<PathBuf>,
+    pub title: String,
+    /// What the file held when it was read or written.
+    pub stamp: Option<DiskStamp>,
+    /// Whether the user knows that another program changed it.
+    pub reported_change: bool,
+}
+
+impl OpenDocument {
+    /// `saved` says whether the document is what its file holds.
+    pub fn new(document: Document, file: OpenFile, saved: bool) -> Self {
+        Self {
+            history: History::new(document, saved),
+            file,
+            opened: 0,
+            last_copies: None,
+            troubles: TroubleList::default(),
+        }
+    }
+
+    /// Puts another document, with a history of its own, in this one's place.
+    pub fn replace(&mut self, document: Document, file: OpenFile, saved: bool) {
+        *self = Self { opened: self.opened + 1, ..Self::new(document, file, saved) };
+    }
+}
+
+impl OpenFile {
+    pub fn untitled(title: &str) -> Self {
+        Self { path: None, title: title.to_owned(), stamp: None, reported_change: false }
+    }
+
+    pub fn at(path: &Path, stamp: Option<DiskStamp>) -> Self {
+        let title = escaped(&path.file_name().unwrap_or(path.as_os_str()).to_string_lossy());
+        Self { path: Some(path.to_owned()), title, stamp, reported_change: false }
+    }
+}
