@@ -27,6 +27,7 @@ window problems invalid/several-problems 'tab:problems'
 window light cradle 'switch_colors,dt:1/2,step_forward*2,next_event,event:0'
 window palette thesis-appendix-2 'palette'
 window editor thesis-appendix-2 'dt:1,step_forward*5,next_event*3,select:5853'
+window handles thesis-appendix-2 'select:28100,tool_turn,maximize_view'
 window accuracy thesis-appendix-2 'tab:accuracy,study'
 window tiles gas 'dt:1/10,step_forward*20,view_perspective,overlay:tiles,maximize_view'
 

@@ -21,6 +21,8 @@ mod editor_files;
 mod editor_live;
 // Selection, inspector fields, problems, new objects, clipboard, typed numbers.
 mod editor_model;
+// Random commands and drags: undo, redo and saving.
+mod editor_random;
 // Unsaved work outlives a crash.
 mod editor_recovery;
 // A session with a runner that writes down what it is told.
