@@ -299,3 +299,41 @@ impl Behavior<Panel> for Frame<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_saved_layout_comes_back_unless_a_panel_is_missing() {
+        let mut dock = Dock::new(None);
+        dock.bring_to_front(Panel::Problems);
+        let text = serde_json::to_string(&dock.saved()).unwrap();
+        let again: Tree<Panel> = serde_json::from_str(&text).unwrap();
+        assert!(again == dock.saved());
+        let mut short = again.clone();
+        let tile = short.tiles.find_pane(&Panel::Tree).unwrap();
+        short.remove_recursively(tile);
+        assert!(Dock::new(Some(short)).saved() == usual(), "the tree would be lost");
+        assert!(Dock::new(Some(again.clone())).saved() == again);
+    }
+
+    #[test]
+    fn only_the_views_take_up_the_change_of_a_window() {
+        let mut tree = usual();
+        let root = tree.root.unwrap();
+        let now = vec2(WHOLE.x + 500.0, WHOLE.y - 100.0);
+        resize(&mut tree.tiles, root, WHOLE, now);
+        let lengths = |tiles: &Tiles<Panel>, tile: TileId, whole: f32| match tiles.get_container(tile) {
+            Some(Container::Linear(linear)) => {
+                (linear.children.clone(), linear.shares.split(&linear.children, whole))
+            }
+            _ => (Vec::new(), Vec::new()),
+        };
+        let (children, widths) = lengths(&tree.tiles, root, now.x);
+        let close = |a: f32, b: f32| (a - b).abs() < 0.01;
+        assert!(close(widths[0], TREE_WIDTH) && close(widths[2], INSPECTOR_WIDTH), "{widths:?}");
+        let (_, heights) = lengths(&tree.tiles, children[1], now.y);
+        assert!(close(heights[1], LISTS_HEIGHT) && close(heights[0], now.y - LISTS_HEIGHT), "{heights:?}");
+    }
+}

@@ -165,3 +165,47 @@ fn views_are_drawn_anew_only_when_they_change() {
     harness.render().unwrap();
     assert_eq!(harness.state().view_redraws(), before + 1);
 }
+
+/// Holds the handle of a selected body and moves the pointer on, without letting go.
+fn hold(harness: &mut Harness<'_, App>, body: &str, knob: &str, way: egui::Vec2, modifiers: egui::Modifiers) {
+    harness.get_by_role_and_label(egui::accesskit::Role::TreeItem, body).click();
+    harness.run();
+    let handle = egui::accesskit::Role::GraphicsSymbol;
+    let pos = harness.get_by_role_and_label(handle, knob).rect().center();
+    harness.event(egui::Event::PointerMoved(pos));
+    harness.step();
+    let button = egui::PointerButton::Primary;
+    harness.event(egui::Event::PointerButton { pos, button, pressed: true, modifiers });
+    harness.step();
+    for share in [0.5, 1.0] {
+        harness.event_modifiers(egui::Event::PointerMoved(pos + share * way), modifiers);
+        harness.step();
+    }
+}
+
+/// How many pixels of a view two pictures have otherwise.
+fn differing(a: &RgbaImage, b: &RgbaImage, rect: Rect) -> usize {
+    let (xs, ys) = (rect.min.x as u32..rect.max.x as u32, rect.min.y as u32..rect.max.y as u32);
+    let pixels = ys.flat_map(|y| xs.clone().map(move |x| (x, y)));
+    pixels.filter(|(x, y)| a.get_pixel(*x, *y) != b.get_pixel(*x, *y)).count()
+}
+
+#[test]
+fn a_drag_shows_where_it_leads() {
+    let drags = [
+        ("15921", "Move in the picture in Top view", "Top view", egui::vec2(28.0, 50.0)),
+        ("28100", "Turn about y in Perspective view", "Perspective view", egui::vec2(-40.0, -14.0)),
+        ("5853", "Tip of the arrow in Front view", "Front view", egui::vec2(40.0, -60.0)),
+    ];
+    for (index, (body, knob, view, way)) in drags.into_iter().enumerate() {
+        let mut harness = window();
+        if index == 1 {
+            harness.key_press(Key::E);
+        }
+        let before = harness.render().unwrap();
+        hold(&mut harness, body, knob, way, egui::Modifiers::COMMAND);
+        let during = harness.render().unwrap();
+        let changed = differing(&before, &during, rect(&harness, view));
+        assert!(changed > 800, "{knob}: {changed} pixels");
+    }
+}

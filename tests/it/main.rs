@@ -29,6 +29,8 @@ mod editor_live;
 mod editor_model;
 // Random commands, edits and tools: undo, redo, save and reload.
 mod editor_random;
+// Random drags and commands, some ending in the middle of others.
+mod editor_random_drags;
 // Unsaved work outlives a crash.
 mod editor_recovery;
 // A session with a runner that writes down what it is told.

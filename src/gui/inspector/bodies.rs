@@ -188,7 +188,7 @@ fn rows(
 
 pub fn row_label(ui: &mut Ui, label: &str, axis: &str) {
     ui.horizontal(|ui| {
-        ui.set_min_width(76.0);
+        ui.set_min_width(96.0);
         ui.label(label);
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.label(RichText::new(axis).color(tones(ui).weak));

@@ -32,6 +32,9 @@ pub(super) fn subject(scenery: &Scenery<'_>, camera: &Camera, viewport: Viewport
         ([body], 1) => Some(*body),
         _ => None,
     };
+    if scenery.tool == Tool::Turn && only.is_some_and(looks_the_same_turned) {
+        return None;
+    }
     let axes = match scenery.local_axes.then(|| chosen.bodies.last()).flatten() {
         Some(body) => {
             let turn = rotation_matrix(body.rotation);
@@ -95,6 +98,12 @@ impl<'s> Chosen<'s> {
     fn middle(&self) -> DVec3 {
         self.min + (self.max - self.min) * 0.5
     }
+}
+
+/// A ball at rest: turning it changes nothing.
+fn looks_the_same_turned(body: &Body) -> bool {
+    let rests = !matches!(body.motion, Motion::Dynamic { velocity, .. } if velocity != DVec3::ZERO);
+    rests && matches!(body.shape, BodyShape::Sphere { .. })
 }
 
 fn sides(body: &Body) -> Option<Sides> {

@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::handles::{Sides, Vector, VectorKind};
+use super::snap::fine_angle;
 use super::{Axis, Freedom, Handle, Subject, snap_angle, snap_value};
 use crate::view::{Camera, Viewport};
 
@@ -160,7 +161,7 @@ impl Grip {
         }
     }
 
-    /// As [`Self::snapped`], for a step too fine to be noticed; angles stay.
+    /// As [`Self::snapped`], for a step too fine to be noticed, and angles of a tenth of a degree.
     pub fn rounded(&self, pull: Pull, camera: &Camera, origin: DVec3, step: f64) -> Pull {
         match (pull, self.handle, self.subject.sides) {
             (Pull::Move(offset), ..) => Pull::Move(self.freedom(camera).snapped(origin, offset, step)),
@@ -186,7 +187,8 @@ impl Grip {
                 let free = self.freedom(camera).snapped(vector.value, change, step / vector.metres_per_unit);
                 Pull::Vector(vector.value + free)
             }
-            (Pull::Turn { .. } | Pull::Sides { .. }, ..) => pull,
+            (Pull::Turn { axis, angle }, ..) => Pull::Turn { axis, angle: fine_angle(angle) },
+            (Pull::Sides { .. }, ..) => pull,
         }
     }
 }

@@ -43,6 +43,11 @@ pub fn snap_angle(angle: f64) -> f64 {
     (angle / ANGLE_STEP).round() * ANGLE_STEP
 }
 
+/// The nearest tenth of a degree, radians.
+pub(super) fn fine_angle(angle: f64) -> f64 {
+    (angle.to_degrees() * 10.0).round().to_radians() / 10.0
+}
+
 /// A snapping step that suits the magnification: about eight points, rounded to 1, 2 or 5 × 10^k metres.
 pub fn snap_step(camera: &Camera, viewport: Viewport) -> f64 {
     round_down_125(STEP_POINTS * camera.world_per_pixel(viewport.height))
