@@ -106,7 +106,7 @@ pub enum WindowCommand {
     /// Puts the keyboard into the filter of the scene tree.
     Find,
     /// The n-th of [`crate::design::TOOLS`]: at once, or by a dialog that asks for its sizes.
-    Tool(usize),
+    DesignTool(usize),
     /// Opens the name of what was selected last for typing.
     Rename,
     Help,

@@ -50,7 +50,7 @@ fn entries(session: &Session) -> impl Iterator<Item = PaletteEntry> {
     let tools = TOOLS.iter().enumerate().map(|(index, tool)| PaletteEntry {
         disabled: session.can_use_tool(index).err(),
         ..entry(
-            WindowCommand::Tool(index),
+            WindowCommand::DesignTool(index),
             format!("{}: {}", tool.group.label(), tool.label),
             tool.help.to_owned(),
         )

@@ -329,7 +329,7 @@ impl App {
                 self.dock.give_height(Panel::Accuracy, ACCURACY_HEIGHT);
             }
             WindowCommand::ResetLayout => self.dock.reset(),
-            WindowCommand::Tool(index) => return self.use_tool(index),
+            WindowCommand::DesignTool(index) => return self.use_tool(index),
             WindowCommand::Find => {
                 self.dock.bring_to_front(Panel::Tree);
                 self.tree.find();

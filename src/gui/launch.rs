@@ -259,7 +259,7 @@ fn step(text: &str) -> Option<Step> {
         return Some(Step::Study);
     }
     let tool =
-        || TOOLS.iter().position(|tool| tool.id == text).map(|index| WindowCommand::Tool(index).into());
+        || TOOLS.iter().position(|tool| tool.id == text).map(|index| WindowCommand::DesignTool(index).into());
     let row = COMMANDS.iter().find(|row| row.id == text).map(|row| row.command);
     row.or_else(tool).map(Step::Command)
 }

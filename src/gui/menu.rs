@@ -80,7 +80,7 @@ fn tools(ui: &mut Ui, context: &AppContext<'_>, groups: &[ToolGroup]) {
                 let reason = || format!("{}\nNot now: {}.", tool.help, can.err().unwrap_or_default());
                 let response = if can.is_ok() { response } else { response.on_disabled_hover_text(reason()) };
                 if response.clicked() {
-                    context.outbox.command(WindowCommand::Tool(index));
+                    context.outbox.command(WindowCommand::DesignTool(index));
                     ui.close();
                 }
             }
