@@ -1,8 +1,8 @@
 //! Drag, whose law −½CρS|v|v is not smooth where a body turns round: apices against closed forms.
 
 use glam::{DVec3, dvec3};
-use polyscene::scene::Scene;
-use polyscene::sim::Simulation;
+use polyscene::scene::{Force, NodeKey, Scene};
+use polyscene::sim::{SimEdit, Simulation};
 
 use crate::common::build::{Build, Shaped, ball, empty, plate};
 use crate::common::drive::{Sampling, advance, impacts, run, simulation, state_of, watch};
@@ -149,4 +149,22 @@ fn a_ball_that_stands_in_air_can_be_hit() {
         assert!((second.position.x - 4.0 - way).abs() <= 1e-11, "{speed} m/s: {}", second.position);
         assert!((first.position.x - 3.0).abs() <= 1e-11, "{speed} m/s: {}", first.position);
     }
+}
+
+/// The same of a ball that hangs still in air, at the weight of which another pulls: gravity is switched on. Its velocity
+/// is none, and what its steps were says nothing either.
+#[test]
+fn a_ball_that_stands_in_air_can_fall() {
+    let density = density(30.0);
+    let scene = empty().air(density).body(ball(1, DVec3::splat(5.0), DVec3::ZERO).radius(0.1));
+    let mut sim = simulation(&scene);
+    sim.begin(1.0);
+    sim.finish(&mut |_, _| {}).expect("it stands");
+    let gravity = empty().gravity(-GRAVITY).forces.remove(0);
+    sim.apply(&SimEdit::AddForce(Box::new(Force { key: NodeKey(777), ..gravity }))).expect("it is added");
+    sim.begin(2.0);
+    sim.finish(&mut |_, _| {}).expect("it falls");
+    let fallen = 5.0 - state_of(&sim, 1).position.y;
+    let expected = 900.0 / GRAVITY * libm::log(libm::cosh(GRAVITY / 30.0));
+    assert!((fallen - expected).abs() <= 1e-11, "{fallen} of {expected}");
 }

@@ -7,7 +7,7 @@ use super::control::{Limits, are_sound};
 use super::plunge::{Onward, way_on};
 use super::radau::{RadauStart, radau_step};
 use super::smoothness::drag_of;
-use super::tolerance::{FARTHEST_HINT, FOR_EVER, INSIDE, LONGEST_STEP};
+use super::tolerance::{FOR_EVER, INSIDE, LONGEST_STEP};
 use crate::sim::books::book_segment;
 use crate::sim::force::Law;
 use crate::sim::model::Model;
@@ -128,13 +128,12 @@ fn integrated(
         }
         Onward::On(from) => from,
     };
-    let is_known = goes_on || FARTHEST_HINT * model.radius(body) >= column.next_step * from.v.length();
     let start = RadauStart {
         time,
         place: from.place,
         v: from.v,
         reads_position: model.forces.iter().any(|force| matches!(force.law, Law::Custom(_))),
-        step: if is_known { column.next_step } else { 0.0 },
+        step: column.next_step,
         previous: goes_on.then_some((&column.series, old.step)),
         radius: model.radius(body),
         drag: drag_of(model, body),

@@ -12,7 +12,7 @@ use super::control::{
     Accepted, Attempt, Beginning, Limits, Passes, accept, are_sound, first_guess, rounding_of, scale,
 };
 use super::smoothness::Course;
-use super::tolerance::{MAX_PASSES, NOISE_GAIN};
+use super::tolerance::{FARTHEST_HINT, MAX_PASSES, NOISE_GAIN};
 use crate::sim::place::Place;
 use crate::sim::segment::{SERIES, Segment, Series};
 use crate::sim::state::FieldColumn;
@@ -74,7 +74,9 @@ pub(super) fn radau_step(
 
 /// The step to try first, s.
 fn first_step(start: &RadauStart<'_>, a0: DVec3, field: &mut impl FnMut(f64, DVec3, DVec3) -> DVec3) -> f64 {
-    if start.step > 0.0 {
+    let way = start.step * (start.v.length() + start.step * a0.length());
+    let is_known = start.previous.is_some() || way <= FARTHEST_HINT * start.radius;
+    if start.step > 0.0 && is_known {
         return start.step;
     }
     let body = Beginning { radius: start.radius, speed: start.v.length(), acceleration: a0.length() };
