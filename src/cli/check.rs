@@ -87,7 +87,7 @@ impl CheckArgs {
 
 /// The scene with all put right that can be; tells what was.
 fn fixed(file: &Path, document: &Document) -> Result<Document, CliError> {
-    let fixed = design::mend_all(document)
+    let fixed = design::repair_all(document)
         .map_err(|error| CliError::Usage(format!("cannot fix {}: {error}", input::display_name(file))))?;
     for what in &fixed.done {
         super::say(format!("{}: {what}", input::display_name(file)));

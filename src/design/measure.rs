@@ -1,4 +1,4 @@
-//! What both troubles and mends go by: what may move, what lies outside, which tiles fit; and the ways to mend.
+//! What both troubles and repairs go by: what may move, what lies outside, which tiles fit; and the ways to repair.
 
 use glam::DVec3;
 
@@ -16,7 +16,7 @@ pub(super) const MOST_ON_AXIS: f64 = 65_536.0;
 
 /// One way to put a scene right.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mend {
+pub enum Repair {
     /// These two.
     PushApart(NodeKey, NodeKey),
     PushAllApart,
@@ -25,7 +25,7 @@ pub enum Mend {
     MakeIdsUnique,
 }
 
-impl Mend {
+impl Repair {
     /// What a button says.
     pub fn label(self) -> &'static str {
         match self {

@@ -1,4 +1,4 @@
-//! Ways to build, arrange, select and mend: pure functions from a scene to the edits that change it, each one undo
+//! Ways to build, arrange, select and repair: pure functions from a scene to the edits that change it, each one undo
 //! step. Knows neither widgets nor files.
 //!
 //! [`TOOLS`] is the one table: menus, palette, dialogs and tests follow.
@@ -11,12 +11,12 @@ mod formula;
 mod gap;
 mod group;
 mod measure;
-mod mend;
 mod moving;
 mod near;
 mod parts;
 mod place;
 mod plan;
+mod repair;
 mod select;
 mod tool;
 mod tools;
@@ -28,11 +28,11 @@ pub use extent::Extent;
 pub use formula::{Formula, Instance};
 pub use gap::{Gap, gap};
 pub use group::{group, rename_group, ungroup};
-pub use measure::Mend;
-pub use mend::{Mended, mend, mend_all};
+pub use measure::Repair;
 pub use moving::moved;
 pub use place::round as round_size;
 pub use plan::{Eye, Given, Plan};
+pub use repair::{Repaired, repair, repair_all};
 pub use tool::{Input, Kind, Tool, ToolGroup, Values};
 pub use tools::TOOLS;
 pub use trouble::{Trouble, TroubleKind, troubles};

@@ -12,18 +12,18 @@ pub enum ToolGroup {
     /// Other selections from one.
     Select,
     /// What puts a scene right.
-    Mend,
+    Repair,
 }
 
 impl ToolGroup {
-    pub const ALL: [Self; 4] = [Self::Part, Self::Arrange, Self::Select, Self::Mend];
+    pub const ALL: [Self; 4] = [Self::Part, Self::Arrange, Self::Select, Self::Repair];
 
     pub fn label(self) -> &'static str {
         match self {
             Self::Part => "Ready parts",
             Self::Arrange => "Arrange",
             Self::Select => "Select more",
-            Self::Mend => "Put right",
+            Self::Repair => "Put right",
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The one table of tools.
 
 use super::tool::Tool;
-use super::{arrange, mend, parts, select};
+use super::{arrange, parts, repair, select};
 
 /// All tools, in the order in which menus list them.
 pub const TOOLS: &[Tool] = &[
@@ -31,7 +31,7 @@ pub const TOOLS: &[Tool] = &[
     select::SAME_GROUP,
     select::TOUCHING,
     select::IN_TILE,
-    mend::PUSH_APART,
-    mend::GROW_MAP,
-    mend::FIT_TILES,
+    repair::PUSH_APART,
+    repair::GROW_MAP,
+    repair::FIT_TILES,
 ];

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::gap::overlap;
-use super::measure::{Mend, fitting_tiles, is_outside, may_part, middle_radius};
+use super::measure::{Repair, fitting_tiles, is_outside, may_part, middle_radius};
 use super::near::for_each_near;
 use crate::scene::{Body, Motion, NodeKey, Scene};
 
@@ -47,7 +47,7 @@ pub struct Trouble {
     pub message: String,
     pub hint: String,
     /// Where it is clear what to do.
-    pub mend: Option<Mend>,
+    pub repair: Option<Repair>,
 }
 
 /// All troubles of a scene, by kind and then in file order.
@@ -76,10 +76,10 @@ fn overlaps(scene: &Scene) -> Vec<Trouble> {
             keys: vec![a.key, b.key],
             message: format!("{} and {} overlap by {} m", a.display_name(), b.display_name(), digits(depth)),
             hint: "they can part only by moving away from each other".into(),
-            mend: may_part(a, b).then_some(Mend::PushApart(a.key, b.key)),
+            repair: may_part(a, b).then_some(Repair::PushApart(a.key, b.key)),
         }
     });
-    with_rest(listed.collect(), pairs.len(), TroubleKind::Overlap, "pairs overlap", Mend::PushAllApart)
+    with_rest(listed.collect(), pairs.len(), TroubleKind::Overlap, "pairs overlap", Repair::PushAllApart)
 }
 
 fn outside(scene: &Scene) -> Vec<Trouble> {
@@ -89,14 +89,14 @@ fn outside(scene: &Scene) -> Vec<Trouble> {
         keys: vec![body.key],
         message: format!("{} starts outside the map", body.display_name()),
         hint: "move it inside or enlarge the map; it is simulated all the same, more slowly".into(),
-        mend: Some(Mend::GrowMap),
+        repair: Some(Repair::GrowMap),
     });
     with_rest(
         listed.collect(),
         out.len(),
         TroubleKind::Outside,
         "bodies start outside the map",
-        Mend::GrowMap,
+        Repair::GrowMap,
     )
 }
 
@@ -105,11 +105,11 @@ fn with_rest(
     all: usize,
     kind: TroubleKind,
     what: &str,
-    mend: Mend,
+    repair: Repair,
 ) -> Vec<Trouble> {
     if all > listed.len() {
         let (message, hint) = (format!("and {} more {what}", all - listed.len()), String::new());
-        listed.push(Trouble { kind, keys: Vec::new(), message, hint, mend: Some(mend) });
+        listed.push(Trouble { kind, keys: Vec::new(), message, hint, repair: Some(repair) });
     }
     listed
 }
@@ -134,7 +134,7 @@ fn tiles(scene: &Scene) -> Option<Trouble> {
         keys: Vec::new(),
         message,
         hint: format!("{x} × {y} × {z} would fit; tiles change the speed, never the result"),
-        mend: Some(Mend::FitTiles),
+        repair: Some(Repair::FitTiles),
     })
 }
 
@@ -173,7 +173,7 @@ fn masses(scene: &Scene) -> Option<Trouble> {
             light.display_name()
         ),
         hint: "where they meet, the lighter one costs digits; a static body is exact".into(),
-        mend: None,
+        repair: None,
     })
 }
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::{Answer, Gesture, Place, SessionCommand};
-use crate::design::{Mend, Plan};
+use crate::design::{Plan, Repair};
 use crate::record::EventRow;
 use crate::scene::{Edit, NodeKey};
 use crate::sim::Method;
@@ -53,9 +53,9 @@ pub enum Action {
     UseTool(usize),
     /// What a tool made of the values that the window asked for.
     Apply(Plan),
-    Mend(Mend),
+    Repair(Repair),
     /// All that can be put right.
-    MendAll,
+    RepairAll,
     /// The window got the keyboard back: other programs may have changed the file.
     LookAtDisk,
 }

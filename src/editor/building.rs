@@ -1,11 +1,11 @@
-//! Tools that build, arrange, select and mend: plans of [`crate::design`] become one undo step each.
+//! Tools that build, arrange, select and repair: plans of [`crate::design`] become one undo step each.
 
 use glam::DVec3;
 
 use super::copies::LastCopies;
 use super::edits::locked_keys;
 use super::{Notice, Outcome, Session};
-use crate::design::{self, Eye, Given, Mend, Mended, Plan, TOOLS};
+use crate::design::{self, Eye, Given, Plan, Repair, Repaired, TOOLS};
 use crate::scene::Edit;
 
 impl Session {
@@ -52,19 +52,19 @@ impl Session {
     }
 
     /// Puts a problem right.
-    pub(super) fn mend(&mut self, mend: Mend) -> Outcome {
+    pub(super) fn repair(&mut self, repair: Repair) -> Outcome {
         let Some(scene) = self.scene() else { return Outcome::no_scene() };
-        match design::mend(scene, mend) {
+        match design::repair(scene, repair) {
             Some(plan) => self.apply_plan(plan),
-            None => Outcome::Refused(format!("{}: there is nothing that could be changed", mend.label())),
+            None => Outcome::Refused(format!("{}: there is nothing that could be changed", repair.label())),
         }
     }
 
     /// Puts right all that can be, as one undo step, and tells what was done.
-    pub(super) fn mend_all(&mut self) -> Outcome {
+    pub(super) fn repair_all(&mut self) -> Outcome {
         self.settle();
-        let Mended { document, touched, done } = match design::mend_all(self.document()) {
-            Ok(mended) => mended,
+        let Repaired { document, touched, done } = match design::repair_all(self.document()) {
+            Ok(repaired) => repaired,
             Err(reason) => return Outcome::Refused(reason.to_string()),
         };
         if done.is_empty() {

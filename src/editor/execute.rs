@@ -39,8 +39,8 @@ impl Session {
             Action::PasteInPlace(text) => return self.paste(&text, true),
             Action::UseTool(index) => return self.use_tool(index),
             Action::Apply(plan) => return self.apply_plan(plan),
-            Action::Mend(mend) => return self.mend(mend),
-            Action::MendAll => return self.mend_all(),
+            Action::Repair(repair) => return self.repair(repair),
+            Action::RepairAll => return self.repair_all(),
             Action::LookAtDisk => self.look_at_disk(),
         }
         Outcome::Done

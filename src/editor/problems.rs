@@ -2,7 +2,7 @@
 //! start. Each says what to select and, where it is clear, how to put it right.
 
 use super::{Session, SessionCommand};
-use crate::design::{Mend, Trouble};
+use crate::design::{Repair, Trouble};
 use crate::record::RunState;
 use crate::scene::{Diagnostic, NodeKey, Severity};
 
@@ -38,21 +38,21 @@ pub struct Problem {
 /// What a button beside a problem does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fix {
-    Mend(Mend),
+    Repair(Repair),
     Reset,
 }
 
 impl Fix {
     pub fn label(self) -> &'static str {
         match self {
-            Self::Mend(mend) => mend.label(),
+            Self::Repair(repair) => repair.label(),
             Self::Reset => "Reset",
         }
     }
 
     pub fn help(self) -> &'static str {
         match self {
-            Self::Mend(mend) => mend.help(),
+            Self::Repair(repair) => repair.help(),
             Self::Reset => super::info(SessionCommand::Reset).map_or("", |row| row.help),
         }
     }
@@ -69,7 +69,7 @@ impl Session {
                 let names_a_repeated_id = problem.key.is_some_and(|key| repeated.contains(&key))
                     && problem.severity == Severity::Warning
                     && problem.message.contains("UserID");
-                problem.fix = names_a_repeated_id.then_some(Fix::Mend(Mend::MakeIdsUnique));
+                problem.fix = names_a_repeated_id.then_some(Fix::Repair(Repair::MakeIdsUnique));
                 problem
             })
             .collect();
@@ -152,7 +152,7 @@ fn of_trouble(trouble: &Trouble) -> Problem {
         path: String::new(),
         key: trouble.keys.first().copied(),
         others: trouble.keys.get(1..).unwrap_or_default().to_vec(),
-        fix: trouble.mend.map(Fix::Mend),
+        fix: trouble.repair.map(Fix::Repair),
     }
 }
 

@@ -22,7 +22,7 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>, overlays: crate::view::Overla
                     Menu::View => overlay_menu(ui, context, overlays),
                     Menu::Add => tools(ui, context, &[ToolGroup::Part]),
                     Menu::Edit => {
-                        tools(ui, context, &[ToolGroup::Arrange, ToolGroup::Select, ToolGroup::Mend]);
+                        tools(ui, context, &[ToolGroup::Arrange, ToolGroup::Select, ToolGroup::Repair]);
                     }
                     _ => {}
                 }

@@ -55,7 +55,7 @@ impl Problems {
             ui.label(text);
             return;
         }
-        let fixes = self.list.iter().filter(|problem| matches!(problem.fix, Some(Fix::Mend(_)))).count();
+        let fixes = self.list.iter().filter(|problem| matches!(problem.fix, Some(Fix::Repair(_)))).count();
         let table = TableBuilder::new(ui)
             .id_salt("problems")
             .striped(true)
@@ -127,7 +127,7 @@ fn fix_button(ui: &mut Ui, context: &AppContext<'_>, problem: &Problem) {
     let Some(fix) = problem.fix else { return };
     if ui.small_button(fix.label()).on_hover_text(fix.help()).clicked() {
         match fix {
-            Fix::Mend(mend) => context.outbox.act(Action::Mend(mend)),
+            Fix::Repair(repair) => context.outbox.act(Action::Repair(repair)),
             Fix::Reset => context.outbox.command(SessionCommand::Reset),
         }
     }
@@ -137,7 +137,7 @@ fn fix_all_button(ui: &mut Ui, context: &AppContext<'_>) {
     let help =
         "Makes IDs unique, pushes bodies apart, grows the map and fits the tiles, as far as each is needed";
     if ui.small_button("Put all right").on_hover_text(help).clicked() {
-        context.outbox.act(Action::MendAll);
+        context.outbox.act(Action::RepairAll);
     }
 }
 

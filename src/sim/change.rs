@@ -86,6 +86,7 @@ fn plan_anew(model: &mut Model, state: &State) {
     if model.plan.stepped_groups || state.dense.is_some() {
         let at = |body| (state.position(body, state.now), state.velocity(body, state.now));
         model.dense_step = step_length(model, at);
+        model.plan.group_step = model.dense_step;
     }
 }
 

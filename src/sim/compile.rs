@@ -64,6 +64,7 @@ pub(super) fn compile(scene: &Scene, method: Method) -> Result<(Model, Vec<Origi
             let origin = &origins[body as usize];
             (origin.position, origin.velocity)
         });
+        model.plan.group_step = model.dense_step;
     }
     Ok((model, origins))
 }

@@ -44,6 +44,7 @@ pub(super) fn plan_of(model: &Model) -> Plan {
         pairs: pairs_of(dynamic_bodies, &statics),
         lasting_contact,
         stepped_groups: model.method == Method::Exact && dynamic_bodies > 1 && is_pressed,
+        group_step: model.dense_step,
         left_out,
     }
 }

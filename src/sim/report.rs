@@ -141,6 +141,8 @@ pub struct Plan {
     pub lasting_contact: bool,
     /// Whether bodies that touch too often for events may be stepped.
     pub stepped_groups: bool,
+    /// Length of their steps, s; 0 where there are none.
+    pub group_step: f64,
     /// What was not stored and not computed because nothing in the scene needs it.
     pub left_out: Vec<&'static str>,
 }

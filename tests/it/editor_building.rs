@@ -1,7 +1,7 @@
-//! Copies, tools, groups and mends in a session: one undo step each, and what is selected then.
+//! Copies, tools, groups and repairs in a session: one undo step each, and what is selected then.
 
 use glam::{DVec3, dvec3};
-use polyscene::design::{Eye, Formula, Mend, TOOLS, gap, troubles};
+use polyscene::design::{Eye, Formula, Repair, TOOLS, gap, troubles};
 use polyscene::editor::{Action, BODY_FIELDS, Fix, Outcome, Request, SessionCommand, Typed};
 use polyscene::scene::{Body, BodyChange, Edit, NodeKey, Scene};
 
@@ -151,7 +151,7 @@ fn numbers_of_many_see_the_old_value_and_their_place() {
 }
 
 #[test]
-fn troubles_are_listed_as_one_designs_and_mended_by_undoable_steps() {
+fn troubles_are_listed_as_one_designs_and_repaired_by_undoable_steps() {
     let mut bench = Bench::open();
     bench.change(8, BodyChange::Position(dvec3(3.5, 3.0, 3.0)));
     let problems = bench.session.problems();
@@ -159,10 +159,10 @@ fn troubles_are_listed_as_one_designs_and_mended_by_undoable_steps() {
     assert_eq!(problem.message, "7 and 8 overlap by 0.5 m");
     assert_eq!((problem.key, &problem.others[..]), (Some(bench.key(7)), &[bench.key(8)][..]));
     assert_eq!(problem.position.map(|(line, _)| line), Some(9));
-    let Some(Fix::Mend(mend)) = problem.fix else { panic!("{problem:?}") };
-    assert_eq!(mend, Mend::PushApart(bench.key(7), bench.key(8)));
+    let Some(Fix::Repair(repair)) = problem.fix else { panic!("{problem:?}") };
+    assert_eq!(repair, Repair::PushApart(bench.key(7), bench.key(8)));
     let before = bench.bytes();
-    assert_eq!(bench.act(Action::Mend(mend)), Outcome::Done);
+    assert_eq!(bench.act(Action::Repair(repair)), Outcome::Done);
     assert!(bench.session.problems().is_empty());
     assert_eq!(bench.session.undo_label(), Some("Push 7 and 8 apart"));
     bench.run(SessionCommand::Undo);

@@ -240,8 +240,8 @@ fn a_repeated_id_is_a_problem_with_its_fix() {
     let problems = bench.session.problems();
     let [problem] = &problems[..] else { panic!("{problems:?}") };
     assert_eq!(problem.severity, Severity::Warning);
-    let Some(Fix::Mend(mend)) = problem.fix else { panic!("{problem:?}") };
-    bench.act(Action::Mend(mend));
+    let Some(Fix::Repair(repair)) = problem.fix else { panic!("{problem:?}") };
+    bench.act(Action::Repair(repair));
     assert!(bench.session.problems().is_empty());
     assert!(matches!(bench.run(SessionCommand::MakeIdsUnique), Outcome::Refused(_)));
 }

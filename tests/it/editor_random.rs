@@ -30,7 +30,7 @@ enum Step {
     Drag(Vec<[i8; 3]>, bool),
     Field(usize, usize, i8),
     Paste(bool),
-    Mend,
+    Repair,
 }
 
 fn step() -> impl Strategy<Value = Step> {
@@ -42,7 +42,7 @@ fn step() -> impl Strategy<Value = Step> {
         2 => (prop::collection::vec(any::<[i8; 3]>(), 1..4), any::<bool>()).prop_map(|(way, drop)| Step::Drag(way, drop)),
         2 => (any::<usize>(), any::<usize>(), any::<i8>()).prop_map(|(field, axis, value)| Step::Field(field, axis, value)),
         1 => any::<bool>().prop_map(Step::Paste),
-        1 => Just(Step::Mend),
+        1 => Just(Step::Repair),
     ]
 }
 
@@ -78,11 +78,11 @@ impl Person {
                 let paste = if *in_place { Action::PasteInPlace(text) } else { Action::Paste(text) };
                 self.bench.act(paste);
             }
-            Step::Mend => {
+            Step::Repair => {
                 let fixes: Vec<_> =
                     self.bench.session.problems().into_iter().filter_map(|problem| problem.fix).collect();
-                if let Some(polyscene::editor::Fix::Mend(mend)) = fixes.first() {
-                    self.bench.act(Action::Mend(*mend));
+                if let Some(polyscene::editor::Fix::Repair(repair)) = fixes.first() {
+                    self.bench.act(Action::Repair(*repair));
                 }
             }
         }

@@ -14,10 +14,10 @@ mod cli;
 // Shared helpers: scenes, driving, the reference.
 mod common;
 // Troubles of a scene as one designs it, and what puts them right.
-mod design_mend;
+mod design_repair;
 // The table of tools: parts, arrays, order, selections, groups.
 mod design_tools;
-// Copies, tools, groups and mends in a session.
+// Copies, tools, groups and repairs in a session.
 mod editor_building;
 // The command table: unique names and keys, reasons for what is disabled.
 mod editor_commands;

@@ -426,7 +426,7 @@ fn refused_edits_say_why() {
 }
 
 #[test]
-fn a_bad_body_is_mended_by_edits() {
+fn a_bad_body_is_repaired_by_edits() {
     let bad = BALL.replace("Radius F32=\"1\"", "Radius F32=\"0\"").replace("X=\"5\" Y", "X=\"five\" Y");
     let document = read(&scene_with("", &format!("{bad}{WALL}")));
     assert!(document.has_errors());
@@ -434,9 +434,9 @@ fn a_bad_body_is_mended_by_edits() {
     let position = BodyChange::Position(DVec3::new(5.0, 3.0, 6.0));
     let shape = BodyChange::Shape(Shape::Sphere { radius: 1.0 });
     let edits = [position, shape].map(|change| Edit::Body { key, change }).to_vec();
-    let mended = apply(&document, &Edit::All(edits));
-    assert_eq!(text(&mended), scene_with("", &format!("{BALL}{WALL}")));
-    assert_eq!(problems(&mended), "");
+    let repaired = apply(&document, &Edit::All(edits));
+    assert_eq!(text(&repaired), scene_with("", &format!("{BALL}{WALL}")));
+    assert_eq!(problems(&repaired), "");
 }
 
 #[test]

@@ -103,7 +103,7 @@ fn a_repeated_id_gets_a_label_of_its_own_and_a_warning() {
 }
 
 #[test]
-fn a_body_with_errors_stays_in_the_scene_to_be_mended() {
+fn a_body_with_errors_stays_in_the_scene_to_be_repaired() {
     let bad = BALL.replace("Radius F32=\"1\"", "Radius F32=\"0\"").replace("\"0,5\"", "\"x\"");
     let document = read(&scene_with("", &format!("{bad}{WALL}")));
     assert!(document.has_errors());

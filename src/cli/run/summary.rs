@@ -82,6 +82,7 @@ struct PlanReport<'a> {
     motion: &'a str,
     pairs: &'a [&'static str],
     lasting_contact: bool,
+    group_step: f64,
     left_out: &'a [&'static str],
 }
 
@@ -233,6 +234,7 @@ fn plan_report(plan: &Plan) -> PlanReport<'_> {
         motion: plan.motion,
         pairs: &plan.pairs,
         lasting_contact: plan.lasting_contact,
+        group_step: plan.group_step,
         left_out: &plan.left_out,
     }
 }

@@ -109,6 +109,13 @@ fn plan(ui: &mut Ui, context: &AppContext<'_>) {
         ui.label("Pairs").on_hover_text("Shapes that can meet in this scene");
         ui.label(RichText::new(pairs).color(tones(ui).weak));
         ui.end_row();
+        if plan.stepped_groups {
+            let help = "Bodies of a heap go on by this step, once they touch too often for events; Dense step sets it";
+            ui.label("Group step").on_hover_text(help);
+            let step = format!("{} s", numbers::significant(plan.group_step, 4));
+            ui.label(RichText::new(step).color(tones(ui).weak));
+            ui.end_row();
+        }
     });
     if !plan.left_out.is_empty() {
         ui.label("Left out").on_hover_text("What this scene does not need is neither stored nor computed");

@@ -34,7 +34,8 @@ impl<'d> Work<'d> {
     pub fn on(document: &'d Document) -> Result<Self, EditError> {
         let Content::Tree(top) = &document.content else {
             let first = document.diagnostics().first().map(ToString::to_string).unwrap_or_default();
-            let message = format!("the file cannot be edited before it is mended in a text editor: {first}");
+            let message =
+                format!("the file cannot be edited before it is repaired in a text editor: {first}");
             return Err(EditError::Invalid(message));
         };
         let source = &*document.source;

@@ -35,7 +35,7 @@ pub(in crate::scene) const BODY_ORDER: [&str; 14] = [
 /// The shapes among them.
 pub(in crate::scene) const SHAPES: [&str; 6] = ["Sphere", "Plane", "Box", "Cylinder", "Mesh", "Compound"];
 
-/// Reads a body. What is wrong is reported and takes its default, so that the body can be shown and mended.
+/// Reads a body. What is wrong is reported and takes its default, so that the body can be shown and repaired.
 pub(super) fn read<'a>(el: View<'a>, log: &mut Log<'a>, cosmetics: Cosmetics, uses: &mut Vec<Use>) -> Body {
     let dynamic = el.name() == "SoftObject";
     let [translation, rotation, bounce, friction, material, weight, velocity, spin, shapes @ ..] =

@@ -5,7 +5,7 @@ use crate::scene::rules::{self, Range};
 use crate::scene::tree::View;
 use crate::scene::{Map, shown};
 
-/// What an unusable size or number of tiles is shown as until it is mended.
+/// What an unusable size or number of tiles is shown as until it is repaired.
 pub(super) const FALLBACK: Map = Map { size: glam::DVec3::splat(10.0), tiles: [10; 3] };
 
 /// Reads the map.

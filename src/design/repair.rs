@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::extent::Extent;
 use super::gap::{gap, overlap};
-use super::measure::{MOST_ON_AXIS, Mend, fitting_tiles, is_outside, may_move, may_part};
+use super::measure::{MOST_ON_AXIS, Repair, fitting_tiles, is_outside, may_move, may_part};
 use super::moving;
 use super::near::for_each_near;
 use super::plan::Plan;
@@ -19,57 +19,59 @@ const ROUNDS: usize = 400;
 pub(super) const PUSH_APART: Tool = Tool {
     id: "push_apart",
     label: "Push overlapping bodies apart",
-    group: ToolGroup::Mend,
+    group: ToolGroup::Repair,
     help: "Moves overlapping bodies along their shortest ways until they touch; static and locked ones stay",
     inputs: &[],
     enabled: |given| {
         if first_overlap(given.scene) { Ok(()) } else { Err("no bodies overlap that may be moved") }
     },
-    plan: |given, _| mend(given.scene, Mend::PushAllApart).ok_or_else(|| "nothing could be moved".into()),
+    plan: |given, _| repair(given.scene, Repair::PushAllApart).ok_or_else(|| "nothing could be moved".into()),
 };
 
 pub(super) const GROW_MAP: Tool = Tool {
     id: "grow_map",
     label: "Grow the map to hold all",
-    group: ToolGroup::Mend,
+    group: ToolGroup::Repair,
     help: "Enlarges the map by whole tiles until all moving bodies start inside",
     inputs: &[],
     enabled: |given| {
         let any = given.scene.bodies.iter().any(|body| is_outside(given.scene, body));
         if any { Ok(()) } else { Err("no moving body starts outside the map") }
     },
-    plan: |given, _| mend(given.scene, Mend::GrowMap).ok_or_else(|| "the map cannot grow that far".into()),
+    plan: |given, _| {
+        repair(given.scene, Repair::GrowMap).ok_or_else(|| "the map cannot grow that far".into())
+    },
 };
 
 pub(super) const FIT_TILES: Tool = Tool {
     id: "fit_tiles",
     label: "Fit tiles",
-    group: ToolGroup::Mend,
+    group: ToolGroup::Repair,
     help: "Chooses the number of tiles by the size of the balls; changes the speed, never the result",
     inputs: &[],
     enabled: |given| {
         let fits = fitting_tiles(given.scene) == given.scene.map.tiles;
         if fits { Err("the tiles fit") } else { Ok(()) }
     },
-    plan: |given, _| mend(given.scene, Mend::FitTiles).ok_or_else(|| "the tiles fit".into()),
+    plan: |given, _| repair(given.scene, Repair::FitTiles).ok_or_else(|| "the tiles fit".into()),
 };
 
 /// The edits that put this right; `None` where there is nothing to do or it cannot be done.
-pub fn mend(scene: &Scene, mend: Mend) -> Option<Plan> {
-    match mend {
-        Mend::PushApart(a, b) => push_pair(scene, a, b),
-        Mend::PushAllApart => push_all(scene),
-        Mend::GrowMap => grow_map(scene),
-        Mend::FitTiles => {
+pub fn repair(scene: &Scene, repair: Repair) -> Option<Plan> {
+    match repair {
+        Repair::PushApart(a, b) => push_pair(scene, a, b),
+        Repair::PushAllApart => push_all(scene),
+        Repair::GrowMap => grow_map(scene),
+        Repair::FitTiles => {
             let tiles = fitting_tiles(scene);
             (tiles != scene.map.tiles).then(|| Plan::new("Fit tiles", vec![Edit::MapTiles(tiles)]))
         }
-        Mend::MakeIdsUnique => Some(Plan::new("Make IDs unique", vec![Edit::MakeIdsUnique])),
+        Repair::MakeIdsUnique => Some(Plan::new("Make IDs unique", vec![Edit::MakeIdsUnique])),
     }
 }
 
 /// A document with all put right that can be.
-pub struct Mended {
+pub struct Repaired {
     pub document: Document,
     pub touched: Touched,
     /// What was done, one line each.
@@ -77,32 +79,32 @@ pub struct Mended {
 }
 
 /// Puts right all that can be.
-pub fn mend_all(document: &Document) -> Result<Mended, EditError> {
-    let mut mended = Mended { document: document.clone(), touched: Touched::default(), done: Vec::new() };
+pub fn repair_all(document: &Document) -> Result<Repaired, EditError> {
+    let mut repaired = Repaired { document: document.clone(), touched: Touched::default(), done: Vec::new() };
     let steps = [
-        (Mend::MakeIdsUnique, "gave new UserIDs to what repeated one"),
-        (Mend::PushAllApart, "pushed overlapping bodies apart"),
-        (Mend::GrowMap, "enlarged the map to hold all moving bodies"),
-        (Mend::FitTiles, "fitted the tiles to the balls"),
+        (Repair::MakeIdsUnique, "gave new UserIDs to what repeated one"),
+        (Repair::PushAllApart, "pushed overlapping bodies apart"),
+        (Repair::GrowMap, "enlarged the map to hold all moving bodies"),
+        (Repair::FitTiles, "fitted the tiles to the balls"),
     ];
     for (step, what) in steps {
-        let Some(scene) = mended.document.scene() else { break };
+        let Some(scene) = repaired.document.scene() else { break };
         let is_wanted = match step {
-            Mend::MakeIdsUnique => has_repeated_ids(scene),
-            _ => troubles(scene).iter().any(|trouble| solves(step, trouble.mend)),
+            Repair::MakeIdsUnique => has_repeated_ids(scene),
+            _ => troubles(scene).iter().any(|trouble| solves(step, trouble.repair)),
         };
-        let Some(plan) = is_wanted.then(|| mend(scene, step)).flatten() else { continue };
+        let Some(plan) = is_wanted.then(|| repair(scene, step)).flatten() else { continue };
         let remark = plan.remark.map_or(String::new(), |remark| format!(" ({remark})"));
-        let edited = mended.document.apply(&Edit::All(plan.edits))?;
-        mended.document = edited.document;
-        mended.touched.extend(&edited.touched);
-        mended.done.push(format!("{what}{remark}"));
+        let edited = repaired.document.apply(&Edit::All(plan.edits))?;
+        repaired.document = edited.document;
+        repaired.touched.extend(&edited.touched);
+        repaired.done.push(format!("{what}{remark}"));
     }
-    Ok(mended)
+    Ok(repaired)
 }
 
-fn solves(step: Mend, wanted: Option<Mend>) -> bool {
-    wanted == Some(step) || (step == Mend::PushAllApart && matches!(wanted, Some(Mend::PushApart(..))))
+fn solves(step: Repair, wanted: Option<Repair>) -> bool {
+    wanted == Some(step) || (step == Repair::PushAllApart && matches!(wanted, Some(Repair::PushApart(..))))
 }
 
 fn has_repeated_ids(scene: &Scene) -> bool {

@@ -1,7 +1,7 @@
 //! Troubles of a scene as one designs it, and what puts them right.
 
 use glam::{DVec3, dvec3};
-use polyscene::design::{Mend, Mended, TroubleKind, mend, mend_all, troubles};
+use polyscene::design::{Repair, Repaired, TroubleKind, repair, repair_all, troubles};
 use polyscene::scene::{Body, Document, Edit, Motion, NumberStyle, Scene, Shape};
 
 fn ball(id: i64, at: DVec3, radius: f64, mass: f64) -> Edit {
@@ -28,8 +28,8 @@ fn kinds(document: &Document) -> Vec<TroubleKind> {
     troubles(scene(document)).into_iter().map(|trouble| trouble.kind).collect()
 }
 
-fn mended(document: &Document, how: Mend) -> Document {
-    let plan = mend(scene(document), how).expect("something to mend");
+fn repaired(document: &Document, how: Repair) -> Document {
+    let plan = repair(scene(document), how).expect("something to repair");
     document.apply(&Edit::All(plan.edits)).unwrap().document
 }
 
@@ -62,7 +62,7 @@ fn two_that_overlap_part_along_the_shortest_way() {
     let found = troubles(scene(&document));
     let [trouble] = &found[..] else { panic!("{found:?}") };
     assert_eq!(trouble.message, "1 and 2 overlap by 0.25 m");
-    let parted = mended(&document, trouble.mend.unwrap());
+    let parted = repaired(&document, trouble.repair.unwrap());
     let [a, b] = [0, 1].map(|nth| scene(&parted).bodies[nth].position);
     assert!((a.distance(b) - 1.25).abs() < 1e-12);
     assert!((b - a).normalize().distance(dvec3(0.6, 0.8, 0.0)) < 1e-12);
@@ -74,7 +74,7 @@ fn two_that_overlap_part_along_the_shortest_way() {
 fn a_ball_in_the_floor_comes_out_on_its_side() {
     for (y, expected) in [(0.25, 0.5), (-0.25, -0.5)] {
         let document = made(vec![floor(1, 0.0), ball(2, dvec3(5.0, y, 5.0), 0.5, 1.0)]);
-        let parted = mended(&document, Mend::PushAllApart);
+        let parted = repaired(&document, Repair::PushAllApart);
         assert_eq!(scene(&parted).bodies[1].position.y, expected);
         assert_eq!(scene(&parted).bodies[0], scene(&document).bodies[0]);
     }
@@ -89,7 +89,7 @@ fn a_crowd_is_pushed_apart_and_stays_in_its_room() {
     }));
     let document = made(edits);
     assert!(kinds(&document).len() > 20);
-    let parted = mended(&document, Mend::PushAllApart);
+    let parted = repaired(&document, Repair::PushAllApart);
     assert_eq!(troubles(scene(&parted)), []);
     assert!(scene(&parted).bodies[1..].iter().all(|ball| ball.position.y > 0.49));
 }
@@ -98,18 +98,18 @@ fn a_crowd_is_pushed_apart_and_stays_in_its_room() {
 fn the_map_grows_by_whole_tiles_over_all_that_moves() {
     let far = made(vec![ball(1, dvec3(12.5, 5.0, 5.0), 0.5, 1.0)]);
     assert_eq!(kinds(&far), [TroubleKind::Outside]);
-    let grown = mended(&far, Mend::GrowMap);
+    let grown = repaired(&far, Repair::GrowMap);
     assert_eq!(scene(&grown).map.size, dvec3(13.0, 10.0, 10.0));
     assert_eq!(scene(&grown).map.tiles, [13, 10, 10]);
     assert_eq!(scene(&grown).bodies[0].position.x, 12.5);
 
     let below = made(vec![ball(1, dvec3(5.0, -2.2, 5.0), 0.5, 1.0), floor(2, 0.0)]);
-    let grown = mended(&below, Mend::GrowMap);
+    let grown = repaired(&below, Repair::GrowMap);
     assert_eq!(scene(&grown).map.size, dvec3(10.0, 13.0, 10.0));
     assert_eq!(scene(&grown).bodies[1].position.y, 3.0, "all moves up together");
     assert_eq!(troubles(scene(&grown)), []);
     let endless = made(vec![ball(1, dvec3(1e15, 5.0, 5.0), 0.5, 1.0)]);
-    assert_eq!(mend(scene(&endless), Mend::GrowMap), None);
+    assert_eq!(repair(scene(&endless), Repair::GrowMap), None);
 }
 
 #[test]
@@ -125,7 +125,7 @@ fn tiles_that_are_too_many_too_fine_or_too_coarse_are_fitted() {
         edits.push(Edit::MapTiles(tiles));
         let document = made(edits);
         assert_eq!(kinds(&document), [TroubleKind::Tiles], "{tiles:?}");
-        let fitted = mended(&document, Mend::FitTiles);
+        let fitted = repaired(&document, Repair::FitTiles);
         assert_eq!(troubles(scene(&fitted)), [], "{tiles:?}");
         assert_eq!(scene(&fitted).map.tiles, [17, 17, 17]);
     }
@@ -143,7 +143,7 @@ fn masses_that_differ_too_much_are_told() {
     let found = troubles(scene(&document));
     let [trouble] = &found[..] else { panic!("{found:?}") };
     assert_eq!(trouble.message, "2 has 2.00e7 times the mass of 1");
-    assert_eq!(trouble.mend, None);
+    assert_eq!(trouble.repair, None);
 }
 
 #[test]
@@ -156,7 +156,7 @@ fn all_is_put_right_at_once_and_said() {
     ]);
     let text = String::from_utf8(document.to_bytes()).unwrap().replace("UserID=\"3\"", "UserID=\"2\"");
     let document = Document::from_bytes(text.as_bytes());
-    let Mended { document: mended, done, .. } = mend_all(&document).unwrap();
+    let Repaired { document: repaired, done, .. } = repair_all(&document).unwrap();
     assert_eq!(
         done,
         [
@@ -166,12 +166,12 @@ fn all_is_put_right_at_once_and_said() {
             "fitted the tiles to the balls",
         ]
     );
-    assert_eq!(troubles(scene(&mended)), []);
-    assert!(mended.diagnostics().is_empty());
-    let Mended { document: again, done, touched } = mend_all(&mended).unwrap();
+    assert_eq!(troubles(scene(&repaired)), []);
+    assert!(repaired.diagnostics().is_empty());
+    let Repaired { document: again, done, touched } = repair_all(&repaired).unwrap();
     assert!(touched.is_empty());
     assert!(done.is_empty());
-    assert_eq!(again.to_bytes(), mended.to_bytes());
+    assert_eq!(again.to_bytes(), repaired.to_bytes());
 }
 
 #[test]
