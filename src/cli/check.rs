@@ -47,7 +47,8 @@ pub(super) fn check(args: &CheckArgs) -> Result<(), CliError> {
             examined = input::examine(fixed, Method::Exact);
         }
         examined.problems.extend(troubles(&examined));
-        examined.problems.sort_by_key(|problem| problem.position.unwrap_or_default());
+        // What is about no place sums up.
+        examined.problems.sort_by_key(|problem| (problem.position.is_none(), problem.position));
         for line in examined.lines(&input::display_name(file)) {
             output::print(format!("{line}\n").as_bytes())?;
         }

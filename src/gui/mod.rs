@@ -20,6 +20,7 @@ mod problems;
 mod shortcuts;
 mod start;
 mod status;
+mod steps;
 mod strip;
 mod theme;
 mod toasts;

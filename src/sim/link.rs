@@ -11,8 +11,7 @@ pub(super) struct Link {
     pub b: Option<usize>,
     /// Unit vector from the first body into the other.
     pub towards: DVec3,
-    /// 0 for impacts; for accelerations what keeps the bodies on a curved surface, ≥ 0; in a step what they may come
-    /// nearer by, or must part by, a second.
+    /// 0 for velocities; for accelerations what keeps the bodies on a curved surface, ≥ 0.
     pub limit: f64,
 }
 
@@ -35,7 +34,7 @@ impl Solved {
 impl Link {
     /// Length of all that decides how fast it enters, of that of its bodies.
     pub fn size_of(&self, sizes: &[f64]) -> f64 {
-        sizes[self.a] + self.b.map_or(0.0, |b| sizes[b]) + self.limit.abs()
+        sizes[self.a] + self.b.map_or(0.0, |b| sizes[b]) + self.limit
     }
 
     /// How fast a motion enters the other body, in the units of the motion; negative when it leaves.

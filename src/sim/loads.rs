@@ -42,10 +42,10 @@ impl Loads {
         Self { multipliers: multipliers.to_vec(), ..Self::default() }
     }
 
-    /// Turns a motion into the nearest one within the bounds; `None` where that can't be told from the loads to the
-    /// last digits.
+    /// Turns a motion into the nearest one within the bounds; `None` where that can't be told from the loads.
     pub fn bring_within(&mut self, problem: &Problem<'_>, motion: &mut [DVec3]) -> Option<Solved> {
-        let at = self.find(problem, motion)?;
+        let mut at = self.start(problem, motion);
+        self.iterate(problem, motion, &mut at)?;
         let most = LOADED * problem.largest(motion);
         let is_overloaded = at.sizes.iter().any(|size| *size > most);
         if is_overloaded || self.defect(problem, &at) > PROJECTED * problem.energy(motion) {
@@ -55,19 +55,6 @@ impl Loads {
             *w = if found.length() <= LEFT_OVER * size.max(at.least) { DVec3::ZERO } else { *found };
         }
         Some(Solved { multipliers: self.multipliers.clone(), sizes: at.sizes })
-    }
-
-    /// The loads under which a motion is within the bounds but for rounding, which the loads enlarge where they exceed the
-    /// motion.
-    pub fn bear(&mut self, problem: &Problem<'_>, motion: &[DVec3]) -> Option<&[f64]> {
-        self.find(problem, motion)?;
-        Some(&self.multipliers)
-    }
-
-    fn find(&mut self, problem: &Problem<'_>, motion: &[DVec3]) -> Option<Under> {
-        let mut at = self.start(problem, motion);
-        self.iterate(problem, motion, &mut at)?;
-        Some(at)
     }
 
     /// How far the motion found is from a projection, Σ λ·(N w − limit), J for velocities: the loads enlarge what rounding
@@ -164,7 +151,7 @@ impl Problem<'_> {
 
     /// The largest of a motion's and of the limits.
     fn largest(&self, motion: &[DVec3]) -> f64 {
-        let limits = self.links.iter().map(|link| link.limit.abs());
+        let limits = self.links.iter().map(|link| link.limit);
         motion.iter().map(|w| w.length()).chain(limits).fold(0.0, f64::max)
     }
 }

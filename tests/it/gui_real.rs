@@ -363,10 +363,11 @@ fn a_step_waits_for_the_one_before() {
 #[test]
 fn the_documentation_lists_every_step() {
     let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/scripts.md")).unwrap();
-    for row in polyscene::editor::COMMANDS {
-        let line = format!("| `{}` | {} ▸ {} | {} |", row.id, row.menu.label(), row.label, row.help);
-        assert!(text.contains(&line), "docs/scripts.md lacks:\n{line}");
-    }
+    let line = |row: &polyscene::editor::CommandInfo| {
+        format!("| `{}` | {} ▸ {} | {} |\n", row.id, row.menu.label(), row.label, row.help)
+    };
+    let expected: String = polyscene::editor::COMMANDS.iter().map(line).collect();
+    assert!(text.contains(&expected), "the table of commands in docs/scripts.md must be:\n{expected}");
 }
 
 /// Symptom: `--do dt:0` and `--do select:nosuch` did nothing and ended with 0; `step_forward*-1` was called an

@@ -21,6 +21,7 @@ mod group_step;
 mod list;
 mod membership;
 mod rest;
+mod start;
 mod stepped;
 mod sweep;
 mod tolerance;

@@ -4,11 +4,9 @@ use glam::DVec3;
 
 use super::stepped::{Contact, Stepped};
 use super::tolerance::{
-    BUDGET, COARSEST, FINEST, FINEST_OF_DEEP, GAIN, GROSS_GAIN, MOST_DIRECT, MOST_SWEEPS, SHARE_OF_BUDGET,
-    SHARE_OF_WAY, SWEEPS_AGAINST_GAIN, SWEEPS_BEFORE_DIRECT,
+    BUDGET, COARSEST, FINEST, FINEST_OF_DEEP, GAIN, GROSS_GAIN, MOST_SWEEPS, SHARE_OF_BUDGET, SHARE_OF_WAY,
+    SWEEPS_AGAINST_GAIN,
 };
-use crate::sim::link::Link;
-use crate::sim::loads::{Loads, Problem};
 
 /// What became of the contacts of a component in a step.
 #[derive(Clone, Copy, Debug, Default)]
@@ -73,8 +71,7 @@ pub(super) fn solve(
         }
         let worst = system.sweep(solution.sweeps % 2 == 1);
         solution.sweeps += 1;
-        let is_tough = solution.sweeps % SWEEPS_BEFORE_DIRECT == 0 && contacts.len() <= MOST_DIRECT;
-        if worst > 1.0 && !(is_tough && system.solve_directly(contacts, bodies, h)) {
+        if worst > 1.0 {
             system.go_on();
             continue;
         }
@@ -149,34 +146,6 @@ impl System {
             let before = std::mem::replace(impulse, (*impulse + step).max(0.0));
             push(&mut self.moving, row.ends, row.normal, *impulse - before);
         }
-    }
-
-    /// Solves the rows from their loads, to rounding: where masses differ by far, sweeps hardly converge. Whether that
-    /// could be done.
-    fn solve_directly(&mut self, contacts: &[Contact], bodies: &[Stepped], h: f64) -> bool {
-        let moves = |body: u32| bodies.get(body as usize).is_some_and(|body| body.inverse_mass > 0.0);
-        let links: Vec<Link> = contacts
-            .iter()
-            .map(|contact| {
-                let Contact { a, b, normal, bound, .. } = *contact;
-                let (a, b, towards) = if moves(a) { (a, b, normal) } else { (b, a, -normal) };
-                Link { a: a as usize, b: moves(b).then_some(b as usize), towards, limit: -bound }
-            })
-            .collect();
-        let both = vec![false; links.len()];
-        let inverse_mass: Vec<f64> = bodies.iter().map(|body| body.inverse_mass).collect();
-        let start: Vec<DVec3> = bodies.iter().map(|body| velocity(&free(body, h))).collect();
-        let problem = Problem { links: &links, both: &both, inverse_mass: &inverse_mass };
-        let mut loads = Loads::from(&self.impulses);
-        let Some(found) = loads.bear(&problem, &start) else { return false };
-        self.impulses.copy_from_slice(found);
-        self.moving.clear();
-        self.moving.extend(bodies.iter().map(|body| free(body, h)));
-        for (row, impulse) in self.rows.iter().zip(&self.impulses) {
-            push(&mut self.moving, row.ends, row.normal, *impulse);
-        }
-        self.norm = 0.0;
-        true
     }
 
     /// Energy that the contacts take, −½ Σ λ (s + s'), J, and whether one of them goes deeper than the overlap

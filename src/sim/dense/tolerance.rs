@@ -71,12 +71,6 @@ pub(super) const FINEST_OF_DEEP: f64 = 0.1;
 /// Sweeps before a step is halved.
 pub(super) const MOST_SWEEPS: usize = 400;
 
-/// After so many sweeps, and again after as many more, a component of not too many contacts is solved by factoring,
-/// which takes the time of some hundred sweeps there, and grows with the cube. Smaller factors what a few more sweeps
-/// would solve; larger sweeps in vain where a heavy ball lies on light ones.
-pub(super) const SWEEPS_BEFORE_DIRECT: usize = 100;
-pub(super) const MOST_DIRECT: usize = 256;
-
 /// More sweeps follow while a component gains more than this part of m·g·r of its smallest body, but no more than so
 /// many.
 pub(super) const GAIN: f64 = 1e-5;
