@@ -448,6 +448,9 @@ impl dock::Contents for Contents<'_> {
     }
 
     fn beside_tabs(&mut self, ui: &mut Ui, panel: Panel) {
+        if panel == Panel::Problems {
+            self.problems.show_beside_tab(ui, self.context);
+        }
         let frame = self.context.session.frame();
         if panel == Panel::Events && !frame.events.is_empty() {
             let copy = ui.small_button("Copy").on_hover_text("All rows as text with tabs, for a spreadsheet");

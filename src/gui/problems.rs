@@ -47,6 +47,15 @@ impl Problems {
         if counts.is_empty() { "Problems".to_owned() } else { format!("Problems ({})", counts.join(", ")) }
     }
 
+    /// A button for all problems, where more than one can be put right.
+    pub fn show_beside_tab(&self, ui: &mut Ui, context: &AppContext<'_>) {
+        let fixes = self.list.iter().filter(|problem| matches!(problem.fix, Some(Fix::Repair(_)))).count();
+        let help = "Makes IDs unique, pushes bodies apart, grows the map and fits the tiles, as far as each is needed";
+        if fixes > 1 && ui.small_button("Put all right").on_hover_text(help).clicked() {
+            context.outbox.act(Action::RepairAll);
+        }
+    }
+
     pub fn show(&mut self, ui: &mut Ui, context: &AppContext<'_>) {
         if self.list.is_empty() {
             ui.add_space(8.0);
@@ -55,30 +64,21 @@ impl Problems {
             ui.label(text);
             return;
         }
-        let fixes = self.list.iter().filter(|problem| matches!(problem.fix, Some(Fix::Repair(_)))).count();
         let table = TableBuilder::new(ui)
             .id_salt("problems")
             .striped(true)
             .sense(Sense::click())
             .min_scrolled_height(0.0)
             .column(Column::exact(18.0))
-            .column(Column::initial(64.0).resizable(true))
-            .column(Column::initial(110.0).resizable(true).clip(true))
-            .column(Column::initial(430.0).resizable(true).clip(true))
+            .column(Column::initial(52.0).resizable(true))
+            .column(Column::initial(80.0).resizable(true).clip(true))
+            .column(Column::initial(330.0).resizable(true).clip(true))
             .column(Column::remainder().clip(true));
         table
             .header(ROW_HEIGHT, |mut header| {
-                for title in ["", "Place", "Object", "Problem"] {
+                for title in ["", "Place", "Object", "Problem", "What to do"] {
                     cell(&mut header, RichText::new(title).small().weak(), "");
                 }
-                header.col(|ui| {
-                    ui.horizontal(|ui| {
-                        ui.label(RichText::new("What to do").small().weak());
-                        if fixes > 1 {
-                            fix_all_button(ui, context);
-                        }
-                    });
-                });
             })
             .body(|body| {
                 body.rows(ROW_HEIGHT, self.list.len(), |mut row| {
@@ -130,14 +130,6 @@ fn fix_button(ui: &mut Ui, context: &AppContext<'_>, problem: &Problem) {
             Fix::Repair(repair) => context.outbox.act(Action::Repair(repair)),
             Fix::Reset => context.outbox.command(SessionCommand::Reset),
         }
-    }
-}
-
-fn fix_all_button(ui: &mut Ui, context: &AppContext<'_>) {
-    let help =
-        "Makes IDs unique, pushes bodies apart, grows the map and fits the tiles, as far as each is needed";
-    if ui.small_button("Put all right").on_hover_text(help).clicked() {
-        context.outbox.act(Action::RepairAll);
     }
 }
 
