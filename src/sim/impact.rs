@@ -59,7 +59,9 @@ pub(super) fn resolve(
     if is_for_steps(state, &group) {
         return enter(model, state, &group.bodies.ids, time);
     }
-    note_work(model, state, &group.bodies.ids, time);
+    if group.members.iter().any(|member| member.restitution < 1.0) {
+        note_work(model, state, &group.bodies.ids, time);
+    }
     let kind = if collapse(model, state, &mut group) { EventKind::Collapse } else { EventKind::Impact };
     list(model, state, time, &group, kind);
     finish(model, state, time, group)
@@ -147,7 +149,8 @@ fn is_near_rest(model: &Model, pair: Pair, gap: &Gap) -> bool {
 /// Newton's law for two bodies that touch nothing else, which then go on.
 fn bounce(model: &Model, state: &mut State, time: f64, pair: Pair, gap: &Gap) -> Result<(), Fault> {
     note_lossy(model, state, [(pair, -gap.rate)]);
-    pair.dynamic().for_each(|body| note_impact(model, state, body, time));
+    let is_lossy = restitution_at(model, pair, -gap.rate) < 1.0;
+    pair.dynamic().for_each(|body| note_impact(model, state, body, time, is_lossy));
     let impulse = exchange(model, state, time, pair, gap);
     let start = |body: u32, impulse: f64| Start {
         body,
@@ -170,8 +173,10 @@ fn list(model: &Model, state: &mut State, time: f64, group: &Group, kind: EventK
         return;
     }
     state.group += 1;
-    let felt = group.members.iter().filter(|member| group.is_felt(model, member));
-    felt.flat_map(|member| member.pair.dynamic()).for_each(|body| note_impact(model, state, body, time));
+    for member in group.members.iter().filter(|member| group.is_felt(model, member)) {
+        let is_lossy = member.restitution < 1.0;
+        member.pair.dynamic().for_each(|body| note_impact(model, state, body, time, is_lossy));
+    }
     let row = |member: &Member| {
         let event = Event {
             impulse: member.impulse,

@@ -3,21 +3,23 @@
 
 use super::data::{Activity, Decaying};
 use super::tolerance::{
-    CROWDED, HALF_LIFE, HALF_LIFE_OF_WORK, LEAST_STRUCK, MOST_AT_ONE_INSTANT, SMALLEST_CROWD, TOO_MUCH_WORK,
-    WORK_OF_CUBE,
+    CROWDED, HALF_LIFE, HALF_LIFE_OF_WORK, LEAST_STRUCK, MOST_AT_ONE_INSTANT, SMALLEST_CROWD, STRUCK_OFTEN,
+    TOO_MUCH_WORK, WORK_OF_CUBE,
 };
 use crate::sim::model::Model;
 use crate::sim::state::State;
 
 /// Notes an impact of a body at a time: one row of the ledger.
-pub(in crate::sim) fn note_impact(model: &Model, state: &mut State, body: u32, time: f64) {
+pub(in crate::sim) fn note_impact(model: &Model, state: &mut State, body: u32, time: f64, is_lossy: bool) {
     if let Some(dense) = &mut state.dense {
         let activity = &mut dense.activity[body as usize];
         activity.impacts.add(1.0, time, HALF_LIFE * model.dense_step);
-        if activity.instant != time {
-            (activity.instant, activity.at_once) = (time, 0);
+        if is_lossy {
+            if activity.instant != time {
+                (activity.instant, activity.at_once) = (time, 0);
+            }
+            activity.at_once += 1;
         }
-        activity.at_once += 1;
     }
 }
 
@@ -26,7 +28,7 @@ pub(in crate::sim) fn has_been_struck(state: &State, body: u32) -> bool {
     state.dense.as_ref().is_some_and(|dense| dense.activity[body as usize].impacts.sum > 0.0)
 }
 
-/// Notes that bodies were resolved or integrated together.
+/// Notes that lossy bodies were resolved or integrated together.
 pub(in crate::sim) fn note_work(model: &Model, state: &mut State, bodies: &[u32], time: f64) {
     let Some(dense) = &mut state.dense else { return };
     let size = bodies.len() as f64;
@@ -45,7 +47,10 @@ pub(in crate::sim) fn least_crowd(model: &Model, state: &State, body: u32, time:
         return Some(2);
     }
     let struck = impacts.at(time, HALF_LIFE * model.dense_step);
-    (struck >= LEAST_STRUCK).then(|| (CROWDED / struck).ceil().max(SMALLEST_CROWD) as usize)
+    if struck >= STRUCK_OFTEN {
+        return Some(SMALLEST_CROWD);
+    }
+    (struck >= LEAST_STRUCK).then(|| (CROWDED / struck).ceil() as usize)
 }
 
 impl Decaying {

@@ -25,7 +25,7 @@ pub(in crate::sim) struct Activity {
     pub impacts: Decaying,
     /// What it cost to resolve and integrate it with others, in steps of a group.
     pub work: Decaying,
-    /// Time of the last impact, s, and how many there were at that time.
+    /// Time of the last lossy impact, s, and how many there were at that time.
     pub instant: f64,
     pub at_once: u32,
 }

@@ -91,27 +91,32 @@ pub(super) const OLDEST_LIST: f64 = 64.0;
 
 // Entering.
 
-/// Impacts of a body, each forgotten by half in four steps, times moving bodies that touch directly or through
-/// others, from which these are stepped: what it costs to go on from impact to impact grows with both. Four are stepped
-/// from some 45 impacts a step on, forty from 4. Fewer, and small heaps are stepped that come to rest by themselves;
-/// more, and heaps stall for longer.
-pub(super) const CROWDED: f64 = 1024.0;
+/// Impacts of a body, each forgotten by half in four steps, from which its component is stepped if it has so many
+/// moving bodies: some 45 a step. Fewer, and small heaps are stepped that come to rest by themselves, and balls
+/// squeezed between two others do not rebound; more, and heaps stall for longer.
+pub(super) const STRUCK_OFTEN: f64 = 256.0;
 pub(super) const HALF_LIFE: f64 = 4.0;
+pub(super) const SMALLEST_CROWD: usize = 4;
 
-/// Three and fewer go on from impact to impact: a ball squeezed between two others rebounds in the end.
-pub(super) const SMALLEST_CROWD: f64 = 4.0;
+/// Elastic bodies that squeeze each other part again, after ever so many impacts as their masses differ. Up to eight are
+/// followed through them all; among more there is no end to it.
+pub(super) const SMALLEST_ELASTIC_CROWD: usize = 9;
+
+/// What it costs to go on from impact to impact grows with the bodies too: larger components are stepped from so many
+/// impacts times bodies on, those of a thousand from some two impacts a step.
+pub(super) const CROWDED: f64 = 8192.0;
 
 /// Nobody looks for a crowd around a body that was struck less: in a gas that would be in vain each time.
 pub(super) const LEAST_STRUCK: f64 = 8.0;
 
-/// Impacts of one body at one instant from which its component is stepped, whatever the others say: no endless
+/// Lossy impacts of one body at one instant from which its component is stepped, whatever the others say: no endless
 /// series of impacts without time can outlive it.
 pub(super) const MOST_AT_ONE_INSTANT: u32 = 32;
 
 /// Moving bodies of one lossy impact, or held together, from which they are stepped.
 pub(in crate::sim) const LARGE_ISLAND: usize = 64;
 
-/// What it costs to resolve or integrate n bodies together grows with n³: in units of ten, this. Half of it is
+/// What it costs to resolve or integrate n lossy bodies together grows with n³: in units of ten, this. Half of it is
 /// forgotten in some steps, and from this sum on the bodies are stepped: where thirty are resolved every twenty steps,
 /// ten once a step. Less, and small heaps are stepped that events would get through; more, and heaps crawl.
 pub(super) const WORK_OF_CUBE: f64 = 1e-3;
