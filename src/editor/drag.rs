@@ -39,7 +39,7 @@ impl Drag {
             forces: scene
                 .forces
                 .iter()
-                .filter(|f| chosen(f.key) && place(&f.kind).is_some())
+                .filter(|f| chosen(f.key) && f.kind.position().is_some())
                 .cloned()
                 .collect(),
         };
@@ -64,7 +64,7 @@ impl Drag {
     /// Where everything began.
     pub fn places(&self) -> impl Iterator<Item = DVec3> {
         let bodies = self.bodies.iter().map(|body| body.position);
-        bodies.chain(self.forces.iter().filter_map(|force| place(&force.kind)))
+        bodies.chain(self.forces.iter().filter_map(|force| force.kind.position()))
     }
 
     /// Where the first of what moves began, for snapping and read-out.
@@ -122,15 +122,6 @@ fn turned(body: &Body, axis: DVec3, angle: f64, pivot: DVec3) -> Vec<BodyChange>
         changes.push(BodyChange::Velocity(turn * velocity));
     }
     changes
-}
-
-fn place(kind: &ForceKind) -> Option<DVec3> {
-    match kind {
-        ForceKind::GravityPoint { position, .. } | ForceKind::GravityPlane { position, .. } => {
-            Some(*position)
-        }
-        ForceKind::Drag { .. } => None,
-    }
 }
 
 fn changed(mut kind: ForceKind, pull: &Pull, pivot: DVec3) -> ForceKind {

@@ -8,7 +8,7 @@ use super::named::{self, Named};
 use super::{Renamed, Tree, look_at};
 use crate::editor::{self, Action, Command, Place, SessionCommand, ViewCommand, WindowCommand};
 use crate::gui::colors::{color32, tones};
-use crate::gui::context::{AppContext, Message, Shown, force_name};
+use crate::gui::context::{AppContext, Message, Shown};
 use crate::gui::theme::ROW_HEIGHT;
 use crate::gui::{icons, menu, numbers, widgets};
 use crate::scene::{Body, BodyChange, Edit, Force, ForceChange, ForceKind, NodeKey, Scene, Shape};
@@ -87,7 +87,7 @@ pub fn collect(scene: &Scene, filter: &str, closed: &[Group], open_named: &BTree
         matches(&words, &[texts, &[group.as_deref().unwrap_or_default()]].concat())
     };
     let force_found =
-        |force: &Force| is_found(&force.group, &[force_name(force), &force.label, force_kind(force)]);
+        |force: &Force| is_found(&force.group, &[force.display_name(), &force.label, force_kind(force)]);
     let body_found =
         |body: &Body| is_found(&body.group, &[body.display_name(), &body.label, body_kind(body)]);
     let in_groups: BTreeSet<NodeKey> = {
@@ -183,7 +183,7 @@ impl Tree {
                 if let Some(force) = shown.scene.forces.get(*index) {
                     let marks = Marks { hidden: force.hidden, locked: force.locked };
                     let looks = Looks {
-                        name: force_name(force),
+                        name: force.display_name(),
                         detail: force_kind(force),
                         chip: Chip::Diamond,
                         marks,
