@@ -233,8 +233,7 @@ impl Tree {
             helps: ["in the views; it always takes part in the simulation", "against moving and deleting"],
         };
         if let Some(mark) = mark_buttons(ui, rect, &marked, response.contains_pointer()) {
-            let edit = mark_edit(shown, key, mark);
-            context.outbox.act(Action::Edit { edit, gesture: None });
+            context.outbox.act(Action::Edit { edit: mark_edit(shown, key, mark), gesture: None });
         }
         response.context_menu(|ui| context_menu(ui, context));
         if contact != ContactState::Flight {
