@@ -6,7 +6,6 @@ use glam::DVec3;
 
 use super::extent::Extent;
 use super::gap::{gap, tolerance};
-use super::moving::shifted;
 use super::place::round;
 use super::plan::Plan;
 use crate::scene::{Body, BodyChange, BodyCopy, Edit, Force, Names, NodeKey, Scene};
@@ -65,7 +64,7 @@ fn grouped_copies(
     });
     let mut names = Names::new(scene.forces.iter().filter_map(|force| force.name.as_deref()));
     let forces = scene.forces.iter().filter(|force| keys.contains(&force.key)).map(|force| {
-        let kind = shifted(force.kind, offset).unwrap_or(force.kind);
+        let kind = force.kind.moved(offset).unwrap_or(force.kind);
         let name = force.name.as_deref().map(|name| names.take(name));
         Edit::AddForce(Box::new(Force { kind, name, group: renamed(&force.group), ..force.clone() }))
     });

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::plan::Given;
-use crate::scene::{BodyChange, Edit, ForceChange, ForceKind, NodeKey};
+use crate::scene::{BodyChange, Edit, ForceChange, NodeKey};
 
 /// Moves what is selected and not locked.
 pub fn moved(given: &Given<'_>, by: DVec3, locked: impl Fn(NodeKey) -> bool) -> Vec<Edit> {
@@ -13,21 +13,8 @@ pub fn moved(given: &Given<'_>, by: DVec3, locked: impl Fn(NodeKey) -> bool) -> 
         .filter(|body| !locked(body.key))
         .map(|body| Edit::Body { key: body.key, change: BodyChange::Position(body.position + by) });
     let forces = given.forces().into_iter().filter(|force| !locked(force.key)).filter_map(|force| {
-        let kind = shifted(force.kind, by)?;
+        let kind = force.kind.moved(by)?;
         Some(Edit::Force { key: force.key, change: ForceChange::Kind(kind) })
     });
     bodies.chain(forces).collect()
-}
-
-/// A force elsewhere; `None` where it has no place.
-pub(super) fn shifted(kind: ForceKind, by: DVec3) -> Option<ForceKind> {
-    match kind {
-        ForceKind::GravityPoint { position, intensity } => {
-            Some(ForceKind::GravityPoint { position: position + by, intensity })
-        }
-        ForceKind::GravityPlane { position, acceleration } => {
-            Some(ForceKind::GravityPlane { position: position + by, acceleration })
-        }
-        ForceKind::Drag { .. } => None,
-    }
 }

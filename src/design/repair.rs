@@ -6,7 +6,6 @@ use glam::DVec3;
 use super::extent::Extent;
 use super::gap::{gap, overlap};
 use super::measure::{MOST_ON_AXIS, Repair, fitting_tiles, is_outside, may_move, may_part};
-use super::moving;
 use super::near::for_each_near;
 use super::plan::Plan;
 use super::tool::{Tool, ToolGroup};
@@ -90,7 +89,7 @@ pub fn repair_all(document: &Document) -> Result<Repaired, EditError> {
     for (step, what) in steps {
         let Some(scene) = repaired.document.scene() else { break };
         let is_wanted = match step {
-            Repair::MakeIdsUnique => has_repeated_ids(scene),
+            Repair::MakeIdsUnique => scene.has_repeated_ids(),
             _ => troubles(scene).iter().any(|trouble| solves(step, trouble.repair)),
         };
         let Some(plan) = is_wanted.then(|| repair(scene, step)).flatten() else { continue };
@@ -105,12 +104,6 @@ pub fn repair_all(document: &Document) -> Result<Repaired, EditError> {
 
 fn solves(step: Repair, wanted: Option<Repair>) -> bool {
     wanted == Some(step) || (step == Repair::PushAllApart && matches!(wanted, Some(Repair::PushApart(..))))
-}
-
-fn has_repeated_ids(scene: &Scene) -> bool {
-    // The k-th of an id is labelled `id#k`.
-    scene.bodies.iter().any(|body| body.label.contains('#'))
-        || scene.forces.iter().any(|force| force.label.contains('#'))
 }
 
 fn first_overlap(scene: &Scene) -> bool {
@@ -214,7 +207,7 @@ fn shifted(scene: &Scene, by: DVec3) -> impl Iterator<Item = Edit> {
         Edit::Body { key: body.key, change }
     });
     let forces = scene.forces.iter().filter_map(move |force| {
-        let kind = moving::shifted(force.kind, by)?;
+        let kind = force.kind.moved(by)?;
         Some(Edit::Force { key: force.key, change: ForceChange::Kind(kind) })
     });
     forces.chain(bodies)

@@ -3,14 +3,12 @@
 
 use std::collections::BTreeSet;
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::edits::locked_keys;
-use super::orientation::{euler_near, turn};
 use super::{Action, Gesture, Session};
-use crate::scene::{
-    Body, BodyChange, Edit, Force, ForceChange, ForceKind, Motion, NodeKey, Shape, rotation_matrix,
-};
+use crate::design::{turn, turned};
+use crate::scene::{Body, BodyChange, Edit, Force, ForceChange, ForceKind, NodeKey, Shape};
 use crate::view::Pull;
 
 /// A drag that began: what changes, and from what.
@@ -39,7 +37,7 @@ impl Drag {
             forces: scene
                 .forces
                 .iter()
-                .filter(|f| chosen(f.key) && place(&f.kind).is_some())
+                .filter(|f| chosen(f.key) && f.kind.position().is_some())
                 .cloned()
                 .collect(),
         };
@@ -64,7 +62,7 @@ impl Drag {
     /// Where everything began.
     pub fn places(&self) -> impl Iterator<Item = DVec3> {
         let bodies = self.bodies.iter().map(|body| body.position);
-        bodies.chain(self.forces.iter().filter_map(|force| place(&force.kind)))
+        bodies.chain(self.forces.iter().filter_map(|force| force.kind.position()))
     }
 
     /// Where the first of what moves began, for snapping and read-out.
@@ -80,7 +78,7 @@ impl Drag {
             edits.extend(body_changes(body, pull, pivot).into_iter().map(change));
         }
         for force in &self.forces {
-            let kind = changed(force.kind, pull, pivot);
+            let kind = pulled(force.kind, pull, pivot);
             edits.push(Edit::Force { key: force.key, change: ForceChange::Kind(kind) });
         }
         if let Pull::Map(size) = pull {
@@ -93,7 +91,7 @@ impl Drag {
 fn body_changes(body: &Body, pull: &Pull, pivot: DVec3) -> Vec<BodyChange> {
     match pull {
         Pull::Move(offset) => vec![BodyChange::Position(body.position + *offset)],
-        Pull::Turn { axis, angle } => turned(body, *axis, *angle, pivot),
+        Pull::Turn { axis, angle } => turned(body, turn(*axis, *angle), pivot),
         Pull::Radius(radius) => vec![BodyChange::Shape(Shape::Sphere { radius: *radius })],
         Pull::Sides { half: [half_x, half_y], shift } => {
             let shape = Shape::Plane { half_x: *half_x, half_y: *half_y };
@@ -104,50 +102,27 @@ fn body_changes(body: &Body, pull: &Pull, pivot: DVec3) -> Vec<BodyChange> {
     }
 }
 
-/// A body turned about a pivot, and its velocity with it. What stays is not written; a ball looks the same
-/// from all sides.
-fn turned(body: &Body, axis: DVec3, angle: f64, pivot: DVec3) -> Vec<BodyChange> {
-    let turn = turn(axis, angle);
-    let mut changes = Vec::new();
-    if body.position != pivot {
-        changes.push(BodyChange::Position(pivot + turn * (body.position - pivot)));
+/// A force as a pull leaves it.
+fn pulled(kind: ForceKind, pull: &Pull, pivot: DVec3) -> ForceKind {
+    match (pull, kind) {
+        (Pull::Move(offset), _) => kind.moved(*offset).unwrap_or(kind),
+        (Pull::Turn { axis, angle }, _) => turned_force(kind, turn(*axis, *angle), pivot),
+        (Pull::Vector(acceleration), ForceKind::GravityPlane { position, .. }) => {
+            ForceKind::GravityPlane { position, acceleration: *acceleration }
+        }
+        _ => kind,
     }
-    if !matches!(body.shape, Shape::Sphere { .. }) {
-        let rotation = euler_near(turn * rotation_matrix(body.rotation), body.rotation);
-        changes.push(BodyChange::Rotation(rotation));
-    }
-    if let Motion::Dynamic { velocity, .. } = body.motion
-        && velocity != DVec3::ZERO
-    {
-        changes.push(BodyChange::Velocity(turn * velocity));
-    }
-    changes
 }
 
-fn place(kind: &ForceKind) -> Option<DVec3> {
+fn turned_force(kind: ForceKind, turn: DMat3, pivot: DVec3) -> ForceKind {
+    let turned = |position: DVec3| pivot + turn * (position - pivot);
     match kind {
-        ForceKind::GravityPoint { position, .. } | ForceKind::GravityPlane { position, .. } => {
-            Some(*position)
+        ForceKind::GravityPoint { position, intensity } => {
+            ForceKind::GravityPoint { position: turned(position), intensity }
         }
-        ForceKind::Drag { .. } => None,
+        ForceKind::GravityPlane { position, acceleration } => {
+            ForceKind::GravityPlane { position: turned(position), acceleration: turn * acceleration }
+        }
+        ForceKind::Drag { .. } => kind,
     }
-}
-
-fn changed(mut kind: ForceKind, pull: &Pull, pivot: DVec3) -> ForceKind {
-    match (&mut kind, pull) {
-        (
-            ForceKind::GravityPoint { position, .. } | ForceKind::GravityPlane { position, .. },
-            Pull::Move(offset),
-        ) => *position += *offset,
-        (ForceKind::GravityPoint { position, .. }, Pull::Turn { axis, angle }) => {
-            *position = pivot + turn(*axis, *angle) * (*position - pivot);
-        }
-        (ForceKind::GravityPlane { position, acceleration }, Pull::Turn { axis, angle }) => {
-            *position = pivot + turn(*axis, *angle) * (*position - pivot);
-            *acceleration = turn(*axis, *angle) * *acceleration;
-        }
-        (ForceKind::GravityPlane { acceleration, .. }, Pull::Vector(value)) => *acceleration = *value,
-        _ => {}
-    }
-    kind
 }

@@ -171,22 +171,21 @@ impl Session {
     }
 
     pub(super) fn has_hidden(&self) -> Result<(), &'static str> {
-        let none = self.keys_where(|body| body.hidden, |force| force.hidden).is_empty();
-        if none { Err("nothing is hidden") } else { Ok(()) }
+        let any = self.scene().is_some_and(|scene| {
+            scene.bodies.iter().any(|body| body.hidden) || scene.forces.iter().any(|force| force.hidden)
+        });
+        if any { Ok(()) } else { Err("nothing is hidden") }
     }
 
     pub(super) fn has_locked(&self) -> Result<(), &'static str> {
-        let none = self.keys_where(|body| body.locked, |force| force.locked).is_empty();
-        if none { Err("nothing is locked") } else { Ok(()) }
+        let any = self.scene().is_some_and(|scene| {
+            scene.bodies.iter().any(|body| body.locked) || scene.forces.iter().any(|force| force.locked)
+        });
+        if any { Ok(()) } else { Err("nothing is locked") }
     }
 
     pub(super) fn has_repeated_ids(&self) -> Result<(), &'static str> {
-        // the k-th of an id is labelled `id#k`
-        let repeated = self.scene().is_some_and(|scene| {
-            scene.bodies.iter().any(|body| body.label.contains('#'))
-                || scene.forces.iter().any(|force| force.label.contains('#'))
-        });
-        if repeated { Ok(()) } else { Err("no UserID repeats") }
+        if self.scene().is_some_and(Scene::has_repeated_ids) { Ok(()) } else { Err("no UserID repeats") }
     }
 
     pub(super) fn can_take_state(&self) -> Result<(), &'static str> {

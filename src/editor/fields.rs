@@ -238,21 +238,8 @@ pub const FORCE_FIELDS: &[Field<Force, ForceChange>] = &[
         unit: "m",
         axes: XYZ,
         range: ANY,
-        get: |force| match force.kind {
-            ForceKind::GravityPoint { position, .. } | ForceKind::GravityPlane { position, .. } => {
-                Some(position)
-            }
-            ForceKind::Drag { .. } => None,
-        },
-        set: |force, position| match force.kind {
-            ForceKind::GravityPoint { intensity, .. } => {
-                kind(ForceKind::GravityPoint { position, intensity })
-            }
-            ForceKind::GravityPlane { acceleration, .. } => {
-                kind(ForceKind::GravityPlane { position, acceleration })
-            }
-            ForceKind::Drag { .. } => None,
-        },
+        get: |force| force.kind.position(),
+        set: |force, position| force.kind.at(position).and_then(kind),
         now: None,
     },
     Field {

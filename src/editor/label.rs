@@ -24,7 +24,7 @@ pub(super) fn name_of(scene: &Scene, key: NodeKey) -> Option<&str> {
     let body = scene.bodies.iter().find(|body| body.key == key).map(Body::display_name);
     body.or_else(|| {
         let force = scene.forces.iter().find(|force| force.key == key)?;
-        Some(force.name.as_deref().unwrap_or(&force.label))
+        Some(force.display_name())
     })
 }
 

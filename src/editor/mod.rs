@@ -23,7 +23,6 @@ mod label;
 mod live;
 mod notice;
 mod open_document;
-mod orientation;
 mod palette;
 mod path_text;
 mod playback;

@@ -1,6 +1,8 @@
 //! The list of problems: those of the document, those of the scene as one designs it, then those of the simulation's
 //! start. Each says what to select and, where it is clear, how to put it right.
 
+use std::collections::BTreeSet;
+
 use super::{Session, SessionCommand};
 use crate::design::{Repair, Trouble};
 use crate::record::RunState;
@@ -115,16 +117,12 @@ impl Session {
         })
     }
 
-    fn repeated_ids(&self) -> std::collections::BTreeSet<NodeKey> {
-        let Some(scene) = self.scene() else { return Default::default() };
-        let mut ids = std::collections::BTreeMap::<(bool, i64), Vec<NodeKey>>::new();
-        for body in &scene.bodies {
-            ids.entry((true, body.id)).or_default().push(body.key);
-        }
-        for force in &scene.forces {
-            ids.entry((false, force.id)).or_default().push(force.key);
-        }
-        ids.into_values().filter(|keys| keys.len() > 1).flatten().collect()
+    /// What has the UserID of something before it in the file.
+    fn repeated_ids(&self) -> BTreeSet<NodeKey> {
+        let Some(scene) = self.scene() else { return BTreeSet::new() };
+        let bodies = scene.bodies.iter().filter(|body| body.repeats_id()).map(|body| body.key);
+        let forces = scene.forces.iter().filter(|force| force.repeats_id()).map(|force| force.key);
+        bodies.chain(forces).collect()
     }
 }
 

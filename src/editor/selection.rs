@@ -1,5 +1,7 @@
 //! What is selected: bodies and forces by their document keys, or the map or the simulation.
 
+use std::collections::BTreeSet;
+
 use crate::scene::{NodeKey, Scene};
 
 /// What the inspector can show that is neither a body nor a force.
@@ -13,6 +15,8 @@ pub enum Place {
 pub struct Selection {
     /// In the order of selecting: the last one is the primary.
     keys: Vec<NodeKey>,
+    /// The same, for lists that ask of each of their rows.
+    known: BTreeSet<NodeKey>,
     place: Option<Place>,
 }
 
@@ -39,7 +43,7 @@ impl Selection {
     }
 
     pub fn contains(&self, key: NodeKey) -> bool {
-        self.keys.contains(&key)
+        self.known.contains(&key)
     }
 
     /// Selects these and nothing else.
@@ -50,24 +54,25 @@ impl Selection {
 
     pub fn add(&mut self, keys: &[NodeKey]) {
         self.place = None;
-        let mut known: std::collections::BTreeSet<NodeKey> = self.keys.iter().copied().collect();
-        self.keys.extend(keys.iter().filter(|key| known.insert(**key)));
+        self.keys.extend(keys.iter().filter(|key| self.known.insert(**key)));
     }
 
     pub fn toggle(&mut self, key: NodeKey) {
-        match self.keys.iter().position(|other| *other == key) {
-            Some(index) => drop(self.keys.remove(index)),
-            None => self.add(&[key]),
+        if self.known.remove(&key) {
+            self.keys.retain(|other| *other != key);
+        } else {
+            self.add(&[key]);
         }
     }
 
     pub fn set_place(&mut self, place: Place) {
-        self.keys.clear();
+        self.clear();
         self.place = Some(place);
     }
 
     pub fn clear(&mut self) {
         self.keys.clear();
+        self.known.clear();
         self.place = None;
     }
 
@@ -76,10 +81,10 @@ impl Selection {
         if self.keys.is_empty() {
             return;
         }
-        let Some(scene) = scene else { return self.keys.clear() };
-        let bodies = scene.bodies.iter().map(|body| body.key);
-        let there: std::collections::BTreeSet<NodeKey> =
-            bodies.chain(scene.forces.iter().map(|force| force.key)).collect();
+        let bodies = scene.into_iter().flat_map(|scene| &scene.bodies).map(|body| body.key);
+        let forces = scene.into_iter().flat_map(|scene| &scene.forces).map(|force| force.key);
+        let there: BTreeSet<NodeKey> = bodies.chain(forces).collect();
         self.keys.retain(|key| there.contains(key));
+        self.known.retain(|key| there.contains(key));
     }
 }

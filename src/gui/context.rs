@@ -117,7 +117,7 @@ impl Shown {
 
     /// What to call a body or force.
     pub fn name(&self, key: NodeKey) -> Option<&str> {
-        let force = || self.force(key).map(force_name);
+        let force = || self.force(key).map(Force::display_name);
         self.body(key).map(Body::display_name).or_else(force)
     }
 
@@ -131,11 +131,6 @@ impl Shown {
             Item::Force(_) => Some(palette.force),
         }
     }
-}
-
-/// A force's name, or its label.
-pub fn force_name(force: &Force) -> &str {
-    force.name.as_deref().unwrap_or(&force.label)
 }
 
 /// Everything a panel may look at.

@@ -109,14 +109,6 @@ impl Document {
         (position, path)
     }
 
-    /// An element as it is written in the file, with what stands inside it.
-    pub fn element_text(&self, key: NodeKey) -> Option<String> {
-        let chain = self.chain(key);
-        let mut text = String::new();
-        write::element(chain.last()?.node, &self.source.text, &mut text);
-        Some(text)
-    }
-
     /// Why the file is Version 1.1: the new physics it uses, such as `SpaceAverse`. Empty for 1.0.
     pub fn reasons_for_1_1(&self) -> Vec<String> {
         self.meaning().features.used().map(|(name, ..)| name.to_owned()).collect()
@@ -147,14 +139,6 @@ impl Document {
     /// Writes the file atomically: temporary file beside it, sync, rename.
     pub fn save(&self, path: &Path) -> io::Result<()> {
         save::write_atomically(path, &self.to_bytes())
-    }
-
-    /// Drops the typed scene, which is made again when it is asked for: for documents that wait in an
-    /// undo history. Elements stay shared with other versions.
-    pub fn forget_scene(&mut self) {
-        if matches!(self.content, Content::Tree(_)) {
-            self.meaning = OnceLock::new();
-        }
     }
 
     pub(super) fn of_tree(source: Arc<Source>, tree: Children) -> Self {

@@ -22,6 +22,13 @@ pub struct Scene {
     pub bodies: Vec<Body>,
 }
 
+impl Scene {
+    /// Whether a UserID stands twice, among bodies or among forces.
+    pub fn has_repeated_ids(&self) -> bool {
+        self.bodies.iter().any(Body::repeats_id) || self.forces.iter().any(Force::repeats_id)
+    }
+}
+
 /// The box `[0,x]×[0,y]×[0,z]` that the tiles divide. It does not collide.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Map {
@@ -46,6 +53,18 @@ pub struct Force {
     pub kind: ForceKind,
 }
 
+impl Force {
+    /// What to call this force in front of a person: its name, or its label.
+    pub fn display_name(&self) -> &str {
+        self.name.as_deref().unwrap_or(&self.label)
+    }
+
+    /// Whether a force before it in the file has the same UserID.
+    pub fn repeats_id(&self) -> bool {
+        self.label.contains('#')
+    }
+}
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ForceKind {
     /// F = G m r/|r|³ towards `position`; `intensity` is G in m³/s², negative repels.
@@ -54,6 +73,30 @@ pub enum ForceKind {
     GravityPlane { position: DVec3, acceleration: DVec3 },
     /// `SpaceAverse`: F = −½ C ρ S |v| v with C = 0.5 and S = πr²; `density` is ρ in kg/m³.
     Drag { density: f64 },
+}
+
+impl ForceKind {
+    /// Where it is drawn, picked and dragged; drag is everywhere and nowhere.
+    pub fn position(&self) -> Option<DVec3> {
+        match *self {
+            Self::GravityPoint { position, .. } | Self::GravityPlane { position, .. } => Some(position),
+            Self::Drag { .. } => None,
+        }
+    }
+
+    /// The same force elsewhere; `None` where it has no place.
+    pub fn at(self, position: DVec3) -> Option<Self> {
+        match self {
+            Self::GravityPoint { intensity, .. } => Some(Self::GravityPoint { position, intensity }),
+            Self::GravityPlane { acceleration, .. } => Some(Self::GravityPlane { position, acceleration }),
+            Self::Drag { .. } => None,
+        }
+    }
+
+    /// The same force moved; `None` where it has no place.
+    pub fn moved(self, by: DVec3) -> Option<Self> {
+        self.at(self.position()? + by)
+    }
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -111,6 +154,11 @@ impl Body {
     /// What to call this body in front of a person: its name, or its label.
     pub fn display_name(&self) -> &str {
         self.name.as_deref().unwrap_or(&self.label)
+    }
+
+    /// Whether a body before it in the file has the same UserID.
+    pub fn repeats_id(&self) -> bool {
+        self.label.contains('#')
     }
 }
 

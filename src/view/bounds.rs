@@ -3,8 +3,8 @@
 use glam::DVec3;
 use rustc_hash::FxHashSet;
 
+use super::ViewInput;
 use super::stage::Stage;
-use super::{ViewInput, forces};
 use crate::scene::{Body, NodeKey, Scene, Shape, rotation_matrix};
 
 /// An axis-aligned box in world coordinates, m.
@@ -75,7 +75,7 @@ pub fn scene_bounds(input: &ViewInput<'_>, keys: Option<&[NodeKey]>) -> Bounds {
         .forces
         .iter()
         .filter(|force| keys.is_some() && is_meant(force.key))
-        .filter_map(|force| forces::place(&force.kind))
+        .filter_map(|force| force.kind.position())
         .map(|place| {
             Bounds::around(place, DVec3::splat(0.05 * map_bounds(input.scene).size().max_element()))
         });

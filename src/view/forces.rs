@@ -9,21 +9,13 @@ use crate::scene::{Force, ForceKind, Scene};
 /// Length of a uniform field's arrow, points.
 const ARROW_POINTS: f64 = 46.0;
 
-/// Where a force is drawn and picked; drag is everywhere and nowhere.
-pub(super) fn place(kind: &ForceKind) -> Option<DVec3> {
-    match *kind {
-        ForceKind::GravityPoint { position, .. } | ForceKind::GravityPlane { position, .. } => Some(position),
-        ForceKind::Drag { .. } => None,
-    }
-}
-
 /// Forces that have a mark, with its place.
 pub(super) fn visible(scene: &Scene) -> impl Iterator<Item = (&Force, DVec3)> {
     scene
         .forces
         .iter()
         .filter(|force| !force.hidden)
-        .filter_map(|force| Some((force, place(&force.kind)?)))
+        .filter_map(|force| Some((force, force.kind.position()?)))
         .filter(|(_, place)| is_drawable(*place))
 }
 

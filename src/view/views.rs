@@ -29,10 +29,6 @@ pub const VIEWS: [ViewPreset; 4] = [
 const ORTHO: &[&str] = &["map", "grid", "contacts", "states"];
 
 impl ViewPreset {
-    pub fn by_id(id: &str) -> Option<&'static Self> {
-        VIEWS.iter().find(|view| view.id == id)
-    }
-
     /// This view of the whole of `bounds`.
     pub fn camera(&self, bounds: Bounds, aspect: f64) -> Camera {
         match self.axis {

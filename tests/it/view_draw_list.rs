@@ -8,7 +8,7 @@ use polyscene::scene::{NodeKey, Shape};
 use polyscene::sim::ContactState;
 use polyscene::view::{
     Camera, Color, DrawList, ListCache, OVERLAYS, OverlaySet, PointShape, Projection, Theme, Trails, VIEWS,
-    ViewInput, ViewPreset, Viewport, build_draw_list, scene_bounds,
+    ViewInput, Viewport, build_draw_list, scene_bounds,
 };
 
 use crate::view_scenes::{ball, body, empty, frame, furnished_box};
@@ -178,7 +178,6 @@ fn overlay_sets_go_by_id() {
     assert_eq!(set, OverlaySet::from_ids(["grid"]));
     for view in &VIEWS {
         assert_eq!(view.overlay_set().ids().count(), view.overlays.len(), "{}: unknown overlay", view.id);
-        assert!(ViewPreset::by_id(view.id).is_some());
     }
 }
 

@@ -1,10 +1,12 @@
 //! Order among the selected bodies: in line, and at equal gaps.
 
+use std::collections::BTreeMap;
+
 use super::inputs::{AXIS, around, axis, moved, with_several};
 use crate::design::extent::Extent;
 use crate::design::plan::{Given, Plan};
 use crate::design::tool::{Input, Kind, Tool, ToolGroup};
-use crate::scene::Body;
+use crate::scene::{Body, NodeKey};
 
 pub const ALIGN: Tool = Tool {
     id: "align",
@@ -68,14 +70,11 @@ pub const DISTRIBUTE: Tool = Tool {
             let before = places.get(nth).copied().unwrap_or_default();
             places.push(before + step);
         }
-        let last = bodies.len() - 1;
-        let goal = |body: &Body| {
-            let nth = bodies.iter().position(|other| other.key == body.key);
-            // The ends stay to the bit.
-            let inside = nth.filter(|nth| (1..last).contains(nth)).and_then(|nth| places.get(nth));
-            inside.map_or(0.0, |goal| goal - body.position[axis])
-        };
-        Ok(moves(given, axis, "Distribute", goal))
+        // The ends stay to the bit.
+        let inside = bodies.iter().zip(places).take(bodies.len() - 1).skip(1);
+        let goals: BTreeMap<NodeKey, f64> = inside.map(|(body, place)| (body.key, place)).collect();
+        let by = |body: &Body| goals.get(&body.key).map_or(0.0, |goal| goal - body.position[axis]);
+        Ok(moves(given, axis, "Distribute", by))
     },
 };
 

@@ -1,12 +1,12 @@
 //! Copies at regular places: in rows, on a circle, along a line.
 
-use glam::{DMat3, DQuat, DVec3};
+use glam::DVec3;
 
 use super::inputs::{ANYWHERE, AXES, around, axis, check_count, pitch, with_bodies};
 use crate::design::plan::{Given, Plan};
 use crate::design::tool::{Input, Kind, Tool, ToolGroup};
-use crate::design::turn::euler;
-use crate::scene::{Body, BodyChange, BodyCopy, Edit, Motion, rotation_matrix};
+use crate::design::turn::{turn, turned};
+use crate::scene::{Body, BodyChange, BodyCopy, Edit};
 
 const COUNT: Kind = Kind::Whole(1.0, 10_000.0);
 
@@ -174,10 +174,10 @@ pub const CIRCLE: Tool = Tool {
         }
         let bodies = given.bodies();
         check_count(bodies.len() * (count - 1))?;
-        let turns = (1..count).map(|nth| DQuat::from_axis_angle(axis, whole * nth as f64 / steps as f64));
+        let turns = (1..count).map(|nth| turn(axis, whole * nth as f64 / steps as f64));
         let copies = turns.flat_map(|turn| {
-            let turn = DMat3::from_quat(turn);
-            bodies.iter().map(move |body| turned(body, turn, centre)).collect::<Vec<_>>()
+            let copy = move |body: &&Body| BodyCopy { of: body.key, changes: turned(body, turn, centre) };
+            bodies.iter().map(copy)
         });
         Ok(Plan::new(
             format!("Repeat {} bodies on a circle", bodies.len()),
@@ -206,15 +206,4 @@ fn repeated(
         edits.extend(offsets.map(|offset| Edit::Duplicate { keys: keys.clone(), offset }));
     }
     Ok(Plan::new(format!("Repeat {} objects", bodies.len() + forces.len()), edits))
-}
-
-fn turned(body: &Body, turn: DMat3, centre: DVec3) -> BodyCopy {
-    let mut changes = vec![
-        BodyChange::Position(centre + turn * (body.position - centre)),
-        BodyChange::Rotation(euler(turn * rotation_matrix(body.rotation))),
-    ];
-    if let Motion::Dynamic { velocity, .. } = body.motion {
-        changes.push(BodyChange::Velocity(turn * velocity));
-    }
-    BodyCopy { of: body.key, changes }
 }

@@ -5,7 +5,7 @@ use glam::{DMat3, DVec3};
 use super::inputs::{ANYWHERE, AXES, around, axis, with_bodies};
 use crate::design::plan::Plan;
 use crate::design::tool::{Input, Kind, Tool, ToolGroup};
-use crate::design::turn::euler;
+use crate::design::turn::euler_near;
 use crate::scene::{Body, BodyChange, BodyCopy, Edit, Motion, Shape, rotation_matrix};
 
 pub const MIRROR: Tool = Tool {
@@ -60,7 +60,7 @@ fn image(body: &Body, axis: DVec3, at: f64) -> Vec<BodyChange> {
         // Both faces of a plate are alike: turning the normal back makes a rotation of the reflection.
         let DMat3 { x_axis, y_axis, z_axis } = rotation_matrix(body.rotation);
         let image = DMat3::from_cols(x_axis * flip, y_axis * flip, -(z_axis * flip));
-        changes.push(BodyChange::Rotation(euler(image)));
+        changes.push(BodyChange::Rotation(euler_near(image, body.rotation)));
     }
     if let Motion::Dynamic { velocity, .. } = body.motion {
         changes.push(BodyChange::Velocity(velocity * flip));

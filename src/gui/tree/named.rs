@@ -2,16 +2,16 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use egui::{Align2, FontId, Rect, Sense, Ui, pos2, vec2};
+use egui::{Rect, Sense, Ui, pos2};
 
-use super::rows::{INDENT, Row, row_space};
+use super::rows::{
+    Chip, INDENT, Looks, Marked, Marks, Row, draw_name, mark_buttons, mark_edit, row_space, triangle,
+};
 use super::{Renamed, Tree};
 use crate::editor::Action;
-use crate::gui::colors::tones;
 use crate::gui::context::{AppContext, Message, Shown};
-use crate::gui::theme::ROW_HEIGHT;
-use crate::gui::{icons, numbers, widgets};
-use crate::scene::{BodyChange, Edit, ForceChange, NodeKey, Scene};
+use crate::gui::{numbers, widgets};
+use crate::scene::{Edit, NodeKey, Scene};
 
 /// One row of a group.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,8 +22,7 @@ pub struct Named {
     /// Everything in it, groups inside it included.
     pub keys: Vec<NodeKey>,
     pub open: bool,
-    hidden: bool,
-    locked: bool,
+    marks: Marks,
 }
 
 impl Named {
@@ -90,8 +89,7 @@ pub fn collect(
             depth,
             keys: content.keys.clone(),
             open,
-            hidden: !content.visible,
-            locked: !content.free,
+            marks: Marks { hidden: !content.visible, locked: !content.free },
         }));
         if open {
             rows.extend(content.rows.iter().map(|row| row.at_depth(depth + 1)));
@@ -131,9 +129,22 @@ impl Tree {
                 ui.horizontal_centered(|ui| self.rename_field(ui, context, shown));
             });
         } else {
-            label(ui, name, named, selected);
+            let count = numbers::count(named.keys.len() as u64);
+            let looks =
+                Looks { name: named.name(), detail: &count, chip: Chip::None, marks: named.marks, depth: 0 };
+            draw_name(ui, name, &looks, selected);
         }
-        marks(ui, rect, context, shown, named, response.contains_pointer());
+        let (name, help) = (format!("group {}", named.path), format!("all in {}", named.path));
+        let marked = Marked {
+            id: ui.scope_id().with(("named mark", &named.path)),
+            name: &name,
+            marks: named.marks,
+            helps: [&help; 2],
+        };
+        if let Some(mark) = mark_buttons(ui, rect, &marked, response.contains_pointer()) {
+            let edits = named.keys.iter().map(|key| mark_edit(shown, *key, mark));
+            context.outbox.act(Action::Edit { edit: Edit::All(edits.collect()), gesture: None });
+        }
         response.context_menu(|ui| super::rows::context_menu(ui, context));
         if toggle.clicked() {
             if !self.open_named.remove(&named.path) {
@@ -150,64 +161,6 @@ impl Tree {
         }
         if toggle.double_clicked() {
             context.outbox.send(Message::Frame(named.keys.clone()));
-        }
-    }
-}
-
-fn triangle(ui: &Ui, center: egui::Pos2, open: bool) {
-    let tip = if open { vec2(0.0, 3.5) } else { vec2(3.5, 0.0) };
-    let side = if open { vec2(4.0, 0.0) } else { vec2(0.0, 4.0) };
-    let corners = vec![center + tip, center - tip + side, center - tip - side];
-    ui.painter().add(egui::Shape::convex_polygon(corners, tones(ui).weak, egui::Stroke::NONE));
-}
-
-fn label(ui: &Ui, rect: Rect, named: &Named, selected: bool) {
-    let (tones, visuals) = (tones(ui), ui.visuals());
-    let color = if selected { visuals.selection.stroke.color } else { visuals.text_color() };
-    let faded = if named.hidden { 0.5 } else { 1.0 };
-    let painter = ui.painter_at(rect.with_max_x(rect.right() - 44.0));
-    let at = pos2(rect.left(), rect.center().y);
-    let font = FontId::proportional(13.0);
-    let drawn = painter.text(at, Align2::LEFT_CENTER, named.name(), font, color.gamma_multiply(faded));
-    let at = pos2(drawn.right() + 8.0, at.y);
-    let count = numbers::count(named.keys.len() as u64);
-    painter.text(at, Align2::LEFT_CENTER, count, FontId::proportional(11.0), tones.weak);
-}
-
-/// Eye and lock of all in the group.
-fn marks(ui: &mut Ui, row: Rect, context: &AppContext<'_>, shown: &Shown, named: &Named, pointed: bool) {
-    for (column, is_eye, on) in [(0.0, true, named.hidden), (1.0, false, named.locked)] {
-        let center = pos2(row.right() - 13.0 - 19.0 * column, row.center().y);
-        let rect = Rect::from_center_size(center, vec2(18.0, ROW_HEIGHT));
-        let response =
-            ui.interact(rect, ui.scope_id().with(("named mark", &named.path, is_eye)), Sense::click());
-        let verb = match (is_eye, on) {
-            (true, false) => "Hide",
-            (true, true) => "Show",
-            (false, false) => "Lock",
-            (false, true) => "Unlock",
-        };
-        widgets::name_button(ui, &response, &format!("{verb} group {}", named.path), on);
-        if pointed || on || response.hovered() || response.has_focus() {
-            let color = if response.hovered() { tones(ui).strong } else { tones(ui).weak };
-            let square = Rect::from_center_size(center, vec2(13.0, 13.0));
-            if is_eye {
-                icons::paint_eye(ui.painter(), square, color, on);
-            } else {
-                icons::paint_lock(ui.painter(), square, color, on);
-            }
-        }
-        if response.on_hover_text(format!("{verb} all in {}", named.path)).clicked() {
-            let (of_body, of_force) = if is_eye {
-                (BodyChange::Hidden(!on), ForceChange::Hidden(!on))
-            } else {
-                (BodyChange::Locked(!on), ForceChange::Locked(!on))
-            };
-            let edits = named.keys.iter().map(|&key| match shown.body(key) {
-                Some(_) => Edit::Body { key, change: of_body.clone() },
-                None => Edit::Force { key, change: of_force.clone() },
-            });
-            context.outbox.act(Action::Edit { edit: Edit::All(edits.collect()), gesture: None });
         }
     }
 }

@@ -8,7 +8,7 @@ use super::named::{self, Named};
 use super::{Renamed, Tree, look_at};
 use crate::editor::{self, Action, Command, Place, SessionCommand, ViewCommand, WindowCommand};
 use crate::gui::colors::{color32, tones};
-use crate::gui::context::{AppContext, Message, Shown, force_name};
+use crate::gui::context::{AppContext, Message, Shown};
 use crate::gui::theme::ROW_HEIGHT;
 use crate::gui::{icons, menu, numbers, widgets};
 use crate::scene::{Body, BodyChange, Edit, Force, ForceChange, ForceKind, NodeKey, Scene, Shape};
@@ -87,7 +87,7 @@ pub fn collect(scene: &Scene, filter: &str, closed: &[Group], open_named: &BTree
         matches(&words, &[texts, &[group.as_deref().unwrap_or_default()]].concat())
     };
     let force_found =
-        |force: &Force| is_found(&force.group, &[force_name(force), &force.label, force_kind(force)]);
+        |force: &Force| is_found(&force.group, &[force.display_name(), &force.label, force_kind(force)]);
     let body_found =
         |body: &Body| is_found(&body.group, &[body.display_name(), &body.label, body_kind(body)]);
     let in_groups: BTreeSet<NodeKey> = {
@@ -183,7 +183,7 @@ impl Tree {
                 if let Some(force) = shown.scene.forces.get(*index) {
                     let marks = Marks { hidden: force.hidden, locked: force.locked };
                     let looks = Looks {
-                        name: force_name(force),
+                        name: force.display_name(),
                         detail: force_kind(force),
                         chip: Chip::Diamond,
                         marks,
@@ -207,7 +207,7 @@ impl Tree {
         let selected = context.session.selection().contains(key);
         let (rect, response) = row_space(ui, selected, looks.name);
         let indent = INDENT * looks.depth as f32;
-        let faded = if looks.marks.hidden { 0.5 } else { 1.0 };
+        let faded = looks.marks.faded();
         if let Some(color) = shown.color(key, context.palette()) {
             looks.chip.paint(
                 ui,
@@ -224,9 +224,17 @@ impl Tree {
                 ui.horizontal_centered(|ui| self.rename_field(ui, context, shown));
             });
         } else {
-            draw_name(ui, name_rect, looks, selected, faded);
+            draw_name(ui, name_rect, looks, selected);
         }
-        mark_buttons(ui, rect, context, shown, key, looks, response.contains_pointer());
+        let marked = Marked {
+            id: ui.scope_id().with(("mark", key)),
+            name: looks.name,
+            marks: looks.marks,
+            helps: ["in the views; it always takes part in the simulation", "against moving and deleting"],
+        };
+        if let Some(mark) = mark_buttons(ui, rect, &marked, response.contains_pointer()) {
+            context.outbox.act(Action::Edit { edit: mark_edit(shown, key, mark), gesture: None });
+        }
         response.context_menu(|ui| context_menu(ui, context));
         if contact != ContactState::Flight {
             let (state, meaning) = (contact.name(), contact.meaning());
@@ -248,23 +256,32 @@ impl Tree {
     }
 }
 
-#[derive(Clone, Copy)]
-struct Marks {
-    hidden: bool,
-    locked: bool,
+/// What a person set of a body, a force, or all of a group.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Marks {
+    pub hidden: bool,
+    pub locked: bool,
 }
 
-struct Looks<'a> {
-    name: &'a str,
-    detail: &'a str,
-    chip: Chip,
-    marks: Marks,
-    depth: usize,
+impl Marks {
+    /// What is hidden is drawn at half strength.
+    fn faded(self) -> f32 {
+        if self.hidden { 0.5 } else { 1.0 }
+    }
+}
+
+/// What a row shows.
+pub(super) struct Looks<'a> {
+    pub name: &'a str,
+    pub detail: &'a str,
+    pub chip: Chip,
+    pub marks: Marks,
+    pub depth: usize,
 }
 
 /// What stands before a name: a shape that shows the kind, in the colour of the views.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Chip {
+pub(super) enum Chip {
     None,
     Disc,
     Ring,
@@ -343,7 +360,8 @@ pub(super) fn row_space(ui: &mut Ui, selected: bool, name: &str) -> (Rect, egui:
     (rect, response)
 }
 
-fn draw_name(ui: &Ui, rect: Rect, looks: &Looks<'_>, selected: bool, faded: f32) {
+pub(super) fn draw_name(ui: &Ui, rect: Rect, looks: &Looks<'_>, selected: bool) {
+    let faded = looks.marks.faded();
     let painter = ui.painter_at(rect.with_max_x(rect.right() - 44.0));
     let color = if selected { ui.visuals().selection.stroke.color } else { ui.visuals().text_color() };
     let font = FontId::proportional(13.0);
@@ -354,28 +372,38 @@ fn draw_name(ui: &Ui, rect: Rect, looks: &Looks<'_>, selected: bool, faded: f32)
     painter.text(at, Align2::LEFT_CENTER, looks.detail, FontId::proportional(11.0), weak);
 }
 
-/// Eye and lock at the right: shown when they say something, or under the pointer.
-fn mark_buttons(
-    ui: &mut Ui,
-    row: Rect,
-    context: &AppContext<'_>,
-    shown: &Shown,
-    key: NodeKey,
-    looks: &Looks<'_>,
-    pointed: bool,
-) {
-    let Marks { hidden, locked } = looks.marks;
-    for (column, is_eye, on) in [(0.0, true, hidden), (1.0, false, locked)] {
+/// What eye and lock at the right of a row belong to.
+pub(super) struct Marked<'a> {
+    pub id: egui::Id,
+    pub name: &'a str,
+    pub marks: Marks,
+    /// What follows the verb of the eye and of the lock in their tooltips.
+    pub helps: [&'a str; 2],
+}
+
+/// A mark to set.
+#[derive(Clone, Copy)]
+pub(super) enum Mark {
+    Hidden(bool),
+    Locked(bool),
+}
+
+/// Eye and lock at the right: shown when they say something, or under the pointer. Gives what was clicked.
+pub(super) fn mark_buttons(ui: &mut Ui, row: Rect, marked: &Marked<'_>, pointed: bool) -> Option<Mark> {
+    let Marks { hidden, locked } = marked.marks;
+    let [of_eye, of_lock] = marked.helps;
+    let mut clicked = None;
+    for (column, is_eye, on, help) in [(0.0, true, hidden, of_eye), (1.0, false, locked, of_lock)] {
         let center = pos2(row.right() - 13.0 - 19.0 * column, row.center().y);
         let rect = Rect::from_center_size(center, vec2(18.0, ROW_HEIGHT));
-        let response = ui.interact(rect, ui.scope_id().with(("mark", key, is_eye)), Sense::click());
+        let response = ui.interact(rect, marked.id.with(is_eye), Sense::click());
         let verb = match (is_eye, on) {
             (true, false) => "Hide",
             (true, true) => "Show",
             (false, false) => "Lock",
             (false, true) => "Unlock",
         };
-        widgets::name_button(ui, &response, &format!("{verb} {}", looks.name), on);
+        widgets::name_button(ui, &response, &format!("{verb} {}", marked.name), on);
         if pointed || on || response.hovered() || response.has_focus() {
             let color = if response.hovered() { tones(ui).strong } else { tones(ui).weak };
             let square = Rect::from_center_size(center, vec2(13.0, 13.0));
@@ -385,23 +413,21 @@ fn mark_buttons(
                 icons::paint_lock(ui.painter(), square, color, on);
             }
         }
-        let help = if is_eye {
-            "in the views; it always takes part in the simulation"
-        } else {
-            "against moving and deleting"
-        };
         if response.on_hover_text(format!("{verb} {help}")).clicked() {
-            let (of_body, of_force) = if is_eye {
-                (BodyChange::Hidden(!on), ForceChange::Hidden(!on))
-            } else {
-                (BodyChange::Locked(!on), ForceChange::Locked(!on))
-            };
-            let edit = match shown.body(key) {
-                Some(_) => Edit::Body { key, change: of_body },
-                None => Edit::Force { key, change: of_force },
-            };
-            context.outbox.act(Action::Edit { edit, gesture: None });
+            clicked = Some(if is_eye { Mark::Hidden(!on) } else { Mark::Locked(!on) });
         }
+    }
+    clicked
+}
+
+pub(super) fn mark_edit(shown: &Shown, key: NodeKey, mark: Mark) -> Edit {
+    let (of_body, of_force) = match mark {
+        Mark::Hidden(on) => (BodyChange::Hidden(on), ForceChange::Hidden(on)),
+        Mark::Locked(on) => (BodyChange::Locked(on), ForceChange::Locked(on)),
+    };
+    match shown.body(key) {
+        Some(_) => Edit::Body { key, change: of_body },
+        None => Edit::Force { key, change: of_force },
     }
 }
 
@@ -420,10 +446,18 @@ fn place_row(ui: &mut Ui, context: &AppContext<'_>, place: Place) {
     let (rect, response) = row_space(ui, selected, name);
     let marks = Marks { hidden: false, locked: false };
     let looks = Looks { name, detail: &detail, chip: Chip::None, marks, depth: 0 };
-    draw_name(ui, rect.with_min_x(rect.left() + 8.0).with_max_x(rect.right() + 44.0), &looks, selected, 1.0);
+    draw_name(ui, rect.with_min_x(rect.left() + 8.0).with_max_x(rect.right() + 44.0), &looks, selected);
     if response.clicked() {
         context.outbox.act(Action::SelectPlace(place));
     }
+}
+
+/// Before what opens and closes.
+pub(super) fn triangle(ui: &Ui, center: egui::Pos2, open: bool) {
+    let tip = if open { vec2(0.0, 3.5) } else { vec2(3.5, 0.0) };
+    let side = if open { vec2(4.0, 0.0) } else { vec2(0.0, 4.0) };
+    let corners = vec![center + tip, center - tip + side, center - tip - side];
+    ui.painter().add(egui::Shape::convex_polygon(corners, tones(ui).weak, egui::Stroke::NONE));
 }
 
 /// Whether it was opened or closed.
@@ -431,10 +465,7 @@ fn group_row(ui: &mut Ui, group: Group, count: usize, shown: usize, open: bool) 
     let (rect, response) = row_space(ui, false, group.label());
     let tones = tones(ui);
     let center = pos2(rect.left() + 12.0, rect.center().y);
-    let tip = if open { vec2(0.0, 3.5) } else { vec2(3.5, 0.0) };
-    let side = if open { vec2(4.0, 0.0) } else { vec2(0.0, 4.0) };
-    let corners = vec![center + tip, center - tip + side, center - tip - side];
-    ui.painter().add(egui::Shape::convex_polygon(corners, tones.weak, egui::Stroke::NONE));
+    triangle(ui, center, open);
     let count = if shown == count {
         numbers::count(count as u64)
     } else {

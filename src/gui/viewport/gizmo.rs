@@ -77,14 +77,10 @@ impl<'s> Chosen<'s> {
                 chosen.bodies.push(body);
                 chosen.include(body.position);
             } else if let Some(force) = scenery.shown.force(*key).filter(|f| !f.locked && !f.hidden) {
-                match force.kind {
-                    ForceKind::GravityPoint { position, .. } => chosen.include(position),
-                    ForceKind::GravityPlane { position, acceleration } => {
-                        chosen.field = Some(acceleration);
-                        chosen.include(position);
-                    }
-                    ForceKind::Drag { .. } => {}
+                if let ForceKind::GravityPlane { acceleration, .. } = force.kind {
+                    chosen.field = Some(acceleration);
                 }
+                force.kind.position().into_iter().for_each(|place| chosen.include(place));
             }
         }
         (chosen.count > 0).then_some(chosen)

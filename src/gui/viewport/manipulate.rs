@@ -120,7 +120,7 @@ impl Manipulation {
         scenery: &Scenery<'_>,
     ) -> Option<Pull> {
         let free = pull(&self.grip, camera, viewport, viewport.ndc(self.at), self.pull.as_ref())?;
-        let origin = self.lead().map_or(self.drag.origin(), |body| body.position);
+        let origin = self.origin();
         if !self.snaps {
             let step = fine_step(camera, viewport, origin) * if shift { PRECISION } else { 1.0 };
             return Some(self.grip.rounded(free, camera, origin, step));
@@ -141,12 +141,11 @@ impl Manipulation {
         scenery: &Scenery<'_>,
     ) -> DVec3 {
         let freedom = self.grip.freedom(camera);
-        let lead = self.lead().cloned();
-        let origin = lead.as_ref().map_or(self.drag.origin(), |body| body.position);
+        let origin = self.origin();
         let place = origin + offset;
         let point = camera.world_per_pixel_at(place, viewport.height);
         let neighbours = neighbours(scenery, &self.drag);
-        if let Some(Body { shape: Shape::Sphere { radius }, .. }) = lead {
+        if let Some(&Body { shape: Shape::Sphere { radius }, .. }) = self.lead() {
             let near = neighbours.iter().copied();
             if let Some((at, guide)) = touching(radius, place, freedom, near, CONTACT_REACH * point) {
                 self.guides.push(guide);

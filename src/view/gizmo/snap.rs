@@ -48,7 +48,7 @@ pub(super) fn fine_angle(angle: f64) -> f64 {
     (angle.to_degrees() * 10.0).round().to_radians() / 10.0
 }
 
-/// A snapping step that suits the magnification: about eight points, rounded to 1, 2 or 5 × 10^k metres.
+/// A snapping step that suits the magnification: twelve points, rounded down to 1, 2 or 5 × 10^k metres.
 pub fn snap_step(camera: &Camera, viewport: Viewport) -> f64 {
     round_down_125(STEP_POINTS * camera.world_per_pixel(viewport.height))
 }

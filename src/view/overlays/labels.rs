@@ -27,7 +27,7 @@ pub(in crate::view) fn add(stage: &Stage<'_>, list: &mut DrawList) {
         })
         .collect();
     names.extend(forces::visible(stage.input.scene).filter_map(|(force, place)| {
-        let text = force.name.as_deref().unwrap_or(&force.label);
+        let text = force.display_name();
         name(stage, text, place, 10.0, 1)
     }));
     names.sort_by(|a, b| a.rank.0.cmp(&b.rank.0).then(a.rank.1.total_cmp(&b.rank.1)));
