@@ -28,6 +28,10 @@ const BLUNT_DRAG: &str = "0.25 0 0 0 0";
 /// Impedance: at 1 a contact would bear any load without giving way, which MuJoCo's solver cannot.
 const IMPEDANCE: &str = "0.99 0.99 0.001";
 
+/// KiB for contacts and the solver; a body of a heap has a handful of contacts.
+const BASE_MEMORY: usize = 16 * 1024;
+const BODY_MEMORY: usize = 128;
+
 struct Writer<'a> {
     source: &'a Source<'a>,
     names: Vec<String>,
@@ -60,6 +64,7 @@ impl Writer<'_> {
         self.xml.open("mujoco", &[("model", "PolyScene")])?;
         self.xml.empty("compiler", &[("angle", "radian")])?;
         self.options()?;
+        self.memory()?;
         self.map()?;
         self.xml.open("default", &[])?;
         self.xml.empty("geom", &[("condim", "1"), ("solimp", IMPEDANCE)])?;
@@ -84,6 +89,13 @@ impl Writer<'_> {
         let attributes =
             [("timestep", &*step), ("gravity", &gravity), ("density", &density), ("integrator", "RK4")];
         self.xml.empty("option", &attributes)
+    }
+
+    /// What MuJoCo takes unless told is quadratic in the number of bodies.
+    fn memory(&mut self) -> io::Result<()> {
+        let kibibytes =
+            BASE_MEMORY.saturating_add(self.source.scene.bodies.len().saturating_mul(BODY_MEMORY));
+        self.xml.empty("size", &[("memory", &format!("{kibibytes}K"))])
     }
 
     /// What the viewer frames, and the map as numbers of the user's own.
