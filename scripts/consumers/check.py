@@ -92,7 +92,7 @@ def far_matrix(a, b):
 
 
 def export(program, scene, to, path):
-    command = [program, "export", str(scene), "--to", to, "-o", str(path)]
+    command = [program, "export", str(scene), "--to", to, "--force", "-o", str(path)]
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode != 0:
         fail(f"{scene}: export to {to}: {done.stderr}")

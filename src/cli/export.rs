@@ -33,6 +33,10 @@ pub struct ExportArgs {
     #[arg(short, long, value_name = "FILE", default_value = "-")]
     output: PathBuf,
 
+    /// Let --output replace a file other than the scene
+    #[arg(long)]
+    force: bool,
+
     /// Write nothing and end with exit code 1 if something is approximated or dropped
     #[arg(long)]
     strict: bool,
@@ -76,6 +80,12 @@ fn refuse_bad_output(args: &ExportArgs, format: &Format) -> Result<(), CliError>
     if output::overwrites(output, &args.scene) {
         let message = format!("--output would overwrite the scene {}", shown_path(output));
         return Err(CliError::Usage(message));
+    }
+    if !args.force && output::holds_something(output) {
+        let name = shown_path(output);
+        return Err(CliError::Usage(format!(
+            "--output would overwrite {name}: give another name, or --force"
+        )));
     }
     if !is_stdout(output) {
         return check_writable(output).map_err(|error| CliError::unwritable(output, &error));

@@ -42,7 +42,7 @@ mod tests {
     #[test]
     fn angles_give_the_rotation_back() {
         let quarter = std::f64::consts::FRAC_PI_2;
-        let steps = [-quarter, -1.570_796, -0.3, 0.0, 0.7, 1.570_796, quarter, 2.9];
+        let steps = [-quarter, 3e-7 - quarter, -0.3, 0.0, 0.7, quarter - 3e-7, quarter, 2.9];
         for (x, y, z) in steps.iter().flat_map(|x| steps.iter().flat_map(move |y| steps.map(|z| (x, y, z)))) {
             let rotation = z_up_rotation(DVec3::new(*x, *y, z));
             let a = roll_pitch_yaw(rotation);

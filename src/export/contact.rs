@@ -30,10 +30,15 @@ impl Yielding {
         });
         let radius = Some(radii.fold(f64::INFINITY, f64::min)).filter(|radius| radius.is_finite());
         let step = radius.map(|radius| WAY_PER_STEP * radius / speed(source));
-        let step = step.filter(|step| step.is_normal()).unwrap_or(ANY_STEP);
-        let root = WAY_PER_STEP / DEPTH / step;
-        Self { radius: radius.unwrap_or(1.0), step, stiffness: root * root }
+        let step = step.filter(|step| stiffness(*step).is_normal()).unwrap_or(ANY_STEP);
+        Self { radius: radius.unwrap_or(1.0), step, stiffness: stiffness(step) }
     }
+}
+
+/// Of contact for a step.
+fn stiffness(step: f64) -> f64 {
+    let root = WAY_PER_STEP / DEPTH / step;
+    root * root
 }
 
 /// The largest speed to expect: the fastest at the start, and a fall along the whole map, m/s.

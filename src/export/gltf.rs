@@ -147,6 +147,7 @@ impl File {
     /// A camera looks along its −z, with y up. `extent` is what it must reach beyond its target.
     fn add_camera(&mut self, viewpoint: &Viewpoint, extent: f64) {
         let Viewpoint { name, perspective, target, yaw, pitch, height } = viewpoint;
+        let height = if *height > 0.0 { *height } else { extent };
         let (sin_yaw, cos_yaw) = libm::sincos(*yaw);
         let (sin_pitch, cos_pitch) = libm::sincos(*pitch);
         let backward = DVec3::new(cos_pitch * sin_yaw, sin_pitch, cos_pitch * cos_yaw);

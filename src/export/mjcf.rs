@@ -113,7 +113,9 @@ impl Writer<'_> {
         let q = quaternion(z_up_rotation(body.rotation));
         let turned = numbers(&[q.w, q.x, q.y, q.z]);
         let name = self.names[at].clone();
-        self.xml.open("body", &[("name", &name), ("pos", &position), ("quat", &turned)])?;
+        let id = body.id.to_string();
+        let attributes = [("name", &*name), ("pos", &position), ("quat", &turned), ("user", &id)];
+        self.xml.open("body", &attributes)?;
         if body.is_dynamic() {
             self.xml.empty("freejoint", &[])?;
         }
@@ -209,7 +211,7 @@ impl Writer<'_> {
             Aspect::UniformGravity => kept("as their sum, in `option`"),
             Aspect::PointGravity => dropped("MuJoCo has uniform gravity only"),
             Aspect::Drag => kept("as the density of the medium, with a blunt drag coefficient of 0.25"),
-            Aspect::UserIds => dropped("bodies go by name; without one it is the UserID"),
+            Aspect::UserIds => kept("of bodies, as their `user` number; forces have none"),
             Aspect::BodyNames => kept("made unique where they repeat"),
             Aspect::Groups => dropped("its groups are numbers"),
             Aspect::Colors => kept(""),

@@ -7,7 +7,7 @@ use crate::scene::{Body, Names, Scene, escaped};
 /// A name for each body, unique, none of `reserved`.
 pub(super) fn unique(scene: &Scene, reserved: &[&str], clean: fn(&str) -> String) -> Vec<String> {
     let mut names = Names::new(reserved.iter().copied());
-    scene.bodies.iter().map(|body| names.take(&clean(&escaped(body.display_name())))).collect()
+    scene.bodies.iter().map(|body| names.take(&clean(&escaped(name_of(body))))).collect()
 }
 
 /// An identifier for each body: letters, digits and `_`, unique.
@@ -26,5 +26,10 @@ pub(super) fn identifiers(scene: &Scene) -> Vec<String> {
         }
         text
     };
-    scene.bodies.iter().map(Body::display_name).enumerate().map(identifier).collect()
+    scene.bodies.iter().map(name_of).enumerate().map(identifier).collect()
+}
+
+/// A name of blanks is none.
+fn name_of(body: &Body) -> &str {
+    body.name.as_deref().filter(|name| !name.trim().is_empty()).unwrap_or(&body.label)
 }

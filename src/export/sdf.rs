@@ -49,7 +49,8 @@ fn write(source: &Source<'_>) -> Result<Exported, ExportError> {
 
 /// `::` parts names, and names within double underscores are reserved.
 fn clean(name: &str) -> String {
-    name.replace("::", ":").replace("__", "_")
+    let name = name.replace("::", "-");
+    if name.starts_with("__") { format!("body{name}") } else { name }
 }
 
 impl Writer<'_> {

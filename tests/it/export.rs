@@ -227,7 +227,10 @@ fn names_are_unique_and_escaped() {
     let csv = text("csv", &document);
     assert!(csv.contains(r#"1,1,"a ""b"" <c> \ ::__d, e",g/h,dynamic,sphere,1,2,3,"#), "{csv}");
     let sdf = text("sdf", &document);
-    assert!(!sdf.contains("::") && !sdf.contains("__"), "{sdf}");
+    assert!(
+        sdf.contains(r#"<model name="a &quot;b&quot; &lt;c&gt; \ -__d, e">"#) && !sdf.contains("::"),
+        "{sdf}"
+    );
 }
 
 /// Where a geom cannot say the product for each other one, the pair is written out.
