@@ -146,7 +146,7 @@ fn attributes(body: &Body, bounces: &[f64]) -> Vec<String> {
         lines.push(format!("vector3f physics:velocity = {}", tuple(&velocity.to_array())));
     }
     if !matches!(body.shape, Shape::Unbuilt { .. }) {
-        let at = bounces.iter().position(|bounce| *bounce == body.bounce).unwrap_or_default();
+        let at = bounces.binary_search_by(|bounce| bounce.total_cmp(&body.bounce)).unwrap_or_default();
         lines.push(format!("rel material:binding:physics = </World/Materials/Bounce{at}>"));
     }
     if let Some(color) = body.color {
