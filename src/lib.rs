@@ -5,6 +5,7 @@ pub mod cli;
 pub mod design;
 #[cfg(feature = "gui")]
 pub mod editor;
+pub mod export;
 #[cfg(feature = "gui")]
 pub mod gui;
 pub mod random;

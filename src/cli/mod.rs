@@ -4,6 +4,7 @@ mod check;
 mod edit;
 mod error;
 mod everyday;
+mod export;
 mod hard_cases;
 mod input;
 mod interrupt;
@@ -31,6 +32,7 @@ pub use check::CheckArgs;
 pub use edit::EditArgs;
 pub use error::{CliError, say};
 pub use everyday::EverydayArgs;
+pub use export::ExportArgs;
 pub use hard_cases::HardCasesArgs;
 pub use input::{Examined, examine};
 #[cfg(feature = "render")]
@@ -48,7 +50,7 @@ pub use study::StudyArgs;
     subcommand_help_heading = "Verbs",
     disable_help_subcommand = true,
     after_help = "Without a verb the editor's window opens; a file named like a verb is given as ./run.\n\n\
-                  Exit codes: 0 fine (warnings allowed), 1 the scene has errors, 2 bad usage or an output that \
+                  Exit codes: 0 fine (warnings allowed), 1 the scene has errors or `export --strict` would lose something, 2 bad usage or an output that \
                   cannot be written, 3 the run stopped on a numerical fault, 4 it stopped early at --max-events or \
                   --max-wall, 130 interrupted."
 )]
@@ -66,6 +68,7 @@ pub enum Verb {
     Run(RunArgs),
     Check(CheckArgs),
     Everyday(EverydayArgs),
+    Export(ExportArgs),
     HardCases(HardCasesArgs),
     #[cfg(feature = "render")]
     Render(RenderArgs),
@@ -86,6 +89,7 @@ impl Verb {
             Self::Run(args) => run::run(args),
             Self::Check(args) => check::check(args),
             Self::Everyday(args) => everyday::everyday(args),
+            Self::Export(args) => export::export(args),
             Self::HardCases(args) => hard_cases::hard_cases(args),
             #[cfg(feature = "render")]
             Self::Render(args) => render::render(args),

@@ -68,6 +68,12 @@ pub fn overwrites(output: &Path, scene: &Path) -> bool {
     Place::of_output(output).is_same(&Place::of_scene(scene))
 }
 
+/// Whether a file is there that may be somebody's work; rows are not. What holds no bytes, such as a fresh temporary
+/// file or a device, is no loss.
+pub fn holds_something(path: &Path) -> bool {
+    !is_stdout(path) && path.metadata().is_ok_and(|metadata| metadata.is_file() && metadata.len() > 0)
+}
+
 /// Refuses two outputs, given with the names of their options, in one place.
 pub fn refuse_shared(outputs: &[(&str, &Path)]) -> Result<(), CliError> {
     let mut taken: Vec<(&str, Place)> = Vec::new();

@@ -5,7 +5,9 @@ use glam::DVec3;
 
 use super::capture::free_if_struck;
 use super::contact::Contact;
-use super::dense::{LARGE_ISLAND, Role, component, enter, least_crowd, note_impact, note_work};
+use super::dense::{
+    LARGE_ISLAND, Role, SMALLEST_ELASTIC_CROWD, component, enter, least_crowd, note_impact, note_work,
+};
 use super::event::{Event, EventKind};
 use super::exchange::{exchange, velocity_change};
 use super::fault::Fault;
@@ -74,7 +76,7 @@ fn least_crowd_of(model: &Model, state: &State, pair: Pair, gap: &Gap, time: f64
     if restitution_at(model, pair, -gap.rate) < 1.0 {
         return of_each.flatten().min();
     }
-    of_each.try_fold(0, |most, least| Some(most.max(least?)))
+    of_each.try_fold(SMALLEST_ELASTIC_CROWD, |most, least| Some(most.max(least?)))
 }
 
 /// Lets the bodies of an impact be stepped with all that they touch, if so many can move; whether they can.

@@ -4,9 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Each layer and what it may import, besides itself. ARCHITECTURE.md says what each holds.
-const LAYERS: [(&str, &[&str]); 11] = [
+const LAYERS: [(&str, &[&str]); 12] = [
     ("random", &[]),
     ("scene", &[]),
+    ("export", &["scene"]),
     ("design", &["random", "scene"]),
     ("sim", &["random", "scene"]),
     ("record", &["scene", "sim"]),
@@ -15,12 +16,13 @@ const LAYERS: [(&str, &[&str]); 11] = [
     ("render", &["scene", "sim", "record", "study", "view"]),
     ("editor", &["scene", "design", "sim", "record", "study", "view"]),
     ("gui", &["scene", "design", "sim", "record", "study", "view", "render", "editor"]),
-    ("cli", &["scene", "design", "sim", "record", "study", "view", "render"]),
+    ("cli", &["scene", "export", "design", "sim", "record", "study", "view", "render"]),
 ];
 
 /// What a layer must not name, because it knows nothing of it.
-const STRANGERS: [(&str, &[&str]); 9] = [
+const STRANGERS: [(&str, &[&str]); 10] = [
     ("design", &["std::time", "std::fs", "egui", "glow", "three_d", "clap"]),
+    ("export", &["std::time", "std::fs", "egui", "glow", "three_d", "clap"]),
     ("scene", &["std::time", "egui", "glow", "three_d", "clap"]),
     ("sim", &["std::time", "std::fs", "egui", "glow", "three_d", "clap"]),
     ("record", &["egui", "glow", "three_d", "clap"]),

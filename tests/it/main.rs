@@ -41,6 +41,8 @@ mod editor_undo;
 mod everyday;
 // The verb `everyday` through the real program.
 mod everyday_verb;
+// Scenes for other programs: every sample in every format, reports, names, axes.
+mod export;
 // The Accuracy panel: a study on its thread, its figures and files, and that it rests.
 mod gui_accuracy;
 // The error badge: what it says, and that a click goes to the event it names.

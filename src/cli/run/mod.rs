@@ -161,17 +161,12 @@ fn refuse_clashing_outputs(args: &RunArgs) -> Result<(), CliError> {
         }
     }
     match &args.final_scene {
-        Some(path) if !args.force && holds_something(path) => Err(CliError::Usage(format!(
+        Some(path) if !args.force && output::holds_something(path) => Err(CliError::Usage(format!(
             "--final would overwrite {}: give another name, or --force",
             shown_path(path)
         ))),
         _ => Ok(()),
     }
-}
-
-/// A scene is somebody's work; rows are not. What holds no bytes, such as a fresh temporary file or a device, is no loss.
-fn holds_something(path: &Path) -> bool {
-    !is_stdout(path) && path.metadata().is_ok_and(|metadata| metadata.is_file() && metadata.len() > 0)
 }
 
 fn examples() -> &'static str {

@@ -3,6 +3,7 @@
 mod any_bytes;
 mod check;
 mod documents;
+mod export;
 mod limits;
 mod names;
 mod outputs;

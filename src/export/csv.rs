@@ -1,0 +1,108 @@
+//! A table of the bodies, one row each (RFC 4180), for spreadsheets and scripts.
+
+use super::aspect::Aspect;
+use super::format::{ExportError, Exported, Format, Source};
+use super::report::{Fate, Report, dropped, kept, not_needed};
+use super::xml::number;
+use crate::scene::{Body, Motion, Shape};
+
+pub(super) const FORMAT: Format = Format {
+    id: "csv",
+    name: "Table of bodies (CSV)",
+    extension: "csv",
+    is_binary: false,
+    holds: "all about each body; no forces",
+    write,
+};
+
+/// Of one body; empty where it has none.
+type Cell = fn(&Body) -> String;
+
+const COLUMNS: &[(&str, Cell)] = &[
+    ("label", |body| body.label.clone()),
+    ("user_id", |body| body.id.to_string()),
+    ("name", |body| text(body.name.as_deref())),
+    ("group", |body| text(body.group.as_deref())),
+    ("motion", |body| if body.is_dynamic() { "dynamic" } else { "static" }.into()),
+    ("shape", |body| match &body.shape {
+        Shape::Sphere { .. } => "sphere".into(),
+        Shape::Plane { .. } => "plane".into(),
+        Shape::Unbuilt { element } => text(Some(element)),
+    }),
+    ("x_m", |body| number(body.position.x)),
+    ("y_m", |body| number(body.position.y)),
+    ("z_m", |body| number(body.position.z)),
+    ("alpha_rad", |body| number(body.rotation.x)),
+    ("beta_rad", |body| number(body.rotation.y)),
+    ("gamma_rad", |body| number(body.rotation.z)),
+    ("radius_m", |body| match body.shape {
+        Shape::Sphere { radius } => number(radius),
+        Shape::Plane { .. } | Shape::Unbuilt { .. } => String::new(),
+    }),
+    ("half_x_m", |body| half_sides(body).map_or(String::new(), |[x, _]| number(x))),
+    ("half_y_m", |body| half_sides(body).map_or(String::new(), |[_, y]| number(y))),
+    ("mass_kg", |body| match body.motion {
+        Motion::Dynamic { mass, .. } => number(mass),
+        Motion::Static => String::new(),
+    }),
+    ("vx_m_per_s", |body| velocity(body, 0)),
+    ("vy_m_per_s", |body| velocity(body, 1)),
+    ("vz_m_per_s", |body| velocity(body, 2)),
+    ("bounce", |body| number(body.bounce)),
+    ("material", |body| text(body.material.as_deref())),
+    ("color", |body| body.color.map_or(String::new(), |[r, g, b]| format!("#{r:02x}{g:02x}{b:02x}"))),
+    ("hidden", |body| body.hidden.to_string()),
+    ("locked", |body| body.locked.to_string()),
+];
+
+fn write(source: &Source<'_>) -> Result<Exported, ExportError> {
+    let head = COLUMNS.iter().map(|(name, _)| (*name).to_owned()).collect::<Vec<_>>();
+    let rows = source.scene.bodies.iter().map(|body| COLUMNS.iter().map(|(_, cell)| cell(body)).collect());
+    let lines = std::iter::once(head).chain(rows).map(|cells: Vec<String>| cells.join(",") + "\r\n");
+    Ok(Exported { bytes: lines.collect::<String>().into_bytes(), report: Report::of(source, fate) })
+}
+
+/// In quotes where it holds what parts cells or lines.
+fn text(text: Option<&str>) -> String {
+    let text = text.unwrap_or_default();
+    let parted = text.contains([',', '"', '\n', '\r']) || text.trim() != text;
+    if parted { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+}
+
+fn half_sides(body: &Body) -> Option<[f64; 2]> {
+    match body.shape {
+        Shape::Plane { half_x, half_y } => Some([half_x, half_y]),
+        Shape::Sphere { .. } | Shape::Unbuilt { .. } => None,
+    }
+}
+
+fn velocity(body: &Body, axis: usize) -> String {
+    match body.motion {
+        Motion::Dynamic { velocity, .. } => number(velocity.to_array()[axis]),
+        Motion::Static => String::new(),
+    }
+}
+
+fn fate(aspect: Aspect) -> Fate {
+    match aspect {
+        Aspect::Spheres
+        | Aspect::Plates
+        | Aspect::Masses
+        | Aspect::Velocities
+        | Aspect::Bounce
+        | Aspect::BodyNames
+        | Aspect::Groups
+        | Aspect::Colors
+        | Aspect::Hidden
+        | Aspect::Locked
+        | Aspect::Materials => kept(""),
+        Aspect::UserIds => kept("of bodies"),
+        Aspect::Unbuilt => dropped("the shape's name is kept, its sizes are not"),
+        Aspect::Frictionless => not_needed("a table has no laws"),
+        Aspect::UniformGravity | Aspect::PointGravity | Aspect::Drag | Aspect::ForceLooks => {
+            dropped("the table has bodies only")
+        }
+        Aspect::Map => not_needed("a search grid, on which no result depends"),
+        Aspect::TimeSpeed | Aspect::Solver | Aspect::Viewpoints => dropped("the table has bodies only"),
+    }
+}

@@ -1,0 +1,80 @@
+//! What a format is, what its writer is given, and what it gives back.
+
+use glam::DVec3;
+
+use super::report::Report;
+use crate::scene::{Body, Document, EditError, ForceKind, Scene};
+
+/// One way to write a scene for another program.
+#[derive(Debug)]
+pub struct Format {
+    /// As `--to` takes it.
+    pub id: &'static str,
+    pub name: &'static str,
+    /// Of its files, without the dot.
+    pub extension: &'static str,
+    pub is_binary: bool,
+    /// What it can hold, in a few words.
+    pub holds: &'static str,
+    pub(super) write: fn(&Source<'_>) -> Result<Exported, ExportError>,
+}
+
+impl Format {
+    /// Writes the scene of a document. It must have one, without errors.
+    pub fn export(&self, document: &Document) -> Result<Exported, ExportError> {
+        let scene = document.scene().filter(|_| !document.has_errors()).ok_or(ExportError::NoScene)?;
+        (self.write)(&Source { document, scene })
+    }
+}
+
+/// A written scene.
+#[derive(Clone, Debug)]
+pub struct Exported {
+    pub bytes: Vec<u8>,
+    pub report: Report,
+}
+
+/// Why nothing was written.
+#[derive(Debug, thiserror::Error)]
+pub enum ExportError {
+    #[error("the scene has errors")]
+    NoScene,
+    #[error("{0}")]
+    Edit(#[from] EditError),
+    #[error("{0}")]
+    Xml(#[from] std::io::Error),
+    #[error("{0}")]
+    Json(#[from] serde_json::Error),
+    #[error("the file would be larger than 4 GiB, the most that the format allows")]
+    TooLarge,
+}
+
+/// What a writer is given.
+pub(super) struct Source<'a> {
+    pub document: &'a Document,
+    pub scene: &'a Scene,
+}
+
+impl Source<'_> {
+    pub fn dynamic(&self) -> impl Iterator<Item = &Body> {
+        self.scene.bodies.iter().filter(|body| body.is_dynamic())
+    }
+
+    /// The sum of all uniform gravities, m/s².
+    pub fn gravity(&self) -> DVec3 {
+        let one = |kind: &ForceKind| match *kind {
+            ForceKind::GravityPlane { acceleration, .. } => acceleration,
+            ForceKind::GravityPoint { .. } | ForceKind::Drag { .. } => DVec3::ZERO,
+        };
+        self.scene.forces.iter().map(|force| one(&force.kind)).sum()
+    }
+
+    /// The sum of all densities of air, kg/m³: drag is linear in it.
+    pub fn air_density(&self) -> f64 {
+        let one = |kind: &ForceKind| match *kind {
+            ForceKind::Drag { density } => density,
+            ForceKind::GravityPoint { .. } | ForceKind::GravityPlane { .. } => 0.0,
+        };
+        self.scene.forces.iter().map(|force| one(&force.kind)).sum()
+    }
+}

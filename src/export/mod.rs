@@ -1,0 +1,28 @@
+//! Scenes for other programs: one table of formats, each with its writer and a report of what it could not say.
+//!
+//! A new format is one file with a [`Format`] and one line in [`FORMATS`].
+
+mod aspect;
+mod axes;
+mod contact;
+mod csv;
+mod format;
+mod gltf;
+mod mesh;
+mod mjcf;
+mod names;
+mod pairs;
+mod polyphysics;
+mod report;
+mod sdf;
+mod slab;
+mod usd;
+mod xml;
+
+pub use aspect::Aspect;
+pub use format::{ExportError, Exported, Format};
+pub use report::{Report, ReportLine, Verdict};
+
+/// All formats, in the order in which they are offered.
+pub const FORMATS: &[Format] =
+    &[mjcf::FORMAT, sdf::FORMAT, gltf::FORMAT, usd::FORMAT, csv::FORMAT, polyphysics::FORMAT];

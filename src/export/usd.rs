@@ -1,0 +1,228 @@
+//! USD as text with `UsdPhysics`: y up, metres, kilograms; plates are static meshes of one square, hit from both sides.
+
+use std::fmt::Write as _;
+
+use glam::DVec3;
+
+use super::aspect::Aspect;
+use super::axes::quaternion;
+use super::format::{ExportError, Exported, Format, Source};
+use super::names;
+use super::report::{Fate, Report, approximated, dropped, kept, not_needed};
+use super::xml::number;
+use crate::scene::{Body, Motion, Shape, escaped, rotation_matrix};
+
+pub(super) const FORMAT: Format = Format {
+    id: "usd",
+    name: "USD with physics, text",
+    extension: "usda",
+    is_binary: false,
+    holds: "bodies, masses, start velocities, uniform gravity, restitution of each body",
+    write,
+};
+
+fn write(source: &Source<'_>) -> Result<Exported, ExportError> {
+    let mut text = HEADER.to_owned();
+    gravity(&mut text, source.gravity());
+    let bounces = bounces(source);
+    materials(&mut text, &bounces);
+    text.push_str("    def Xform \"Bodies\"\n    {\n");
+    for (body, name) in source.scene.bodies.iter().zip(names::identifiers(source.scene)) {
+        prim(&mut text, body, &name, &bounces);
+    }
+    text.push_str("    }\n}\n");
+    Ok(Exported { bytes: text.into_bytes(), report: Report::of(source, fate) })
+}
+
+const HEADER: &str = "#usda 1.0
+(
+    defaultPrim = \"World\"
+    kilogramsPerUnit = 1
+    metersPerUnit = 1
+    upAxis = \"Y\"
+)
+
+def Xform \"World\"
+{
+";
+
+fn gravity(text: &mut String, gravity: DVec3) {
+    let magnitude = gravity.length();
+    let direction = gravity.try_normalize().unwrap_or(DVec3::NEG_Y);
+    let _ = write!(
+        text,
+        "    def PhysicsScene \"PhysicsScene\"
+    {{
+        vector3f physics:gravityDirection = {}
+        float physics:gravityMagnitude = {}
+    }}
+
+",
+        tuple(&direction.to_array()),
+        number(magnitude)
+    );
+}
+
+/// The different values of Bounce, in order.
+fn bounces(source: &Source<'_>) -> Vec<f64> {
+    let mut bounces: Vec<_> = source.scene.bodies.iter().map(|body| body.bounce).collect();
+    bounces.sort_by(f64::total_cmp);
+    bounces.dedup();
+    bounces
+}
+
+/// One per value of Bounce. How two mix is not said by USD; PhysX is told to multiply.
+fn materials(text: &mut String, bounces: &[f64]) {
+    text.push_str("    def Scope \"Materials\"\n    {\n");
+    for (at, bounce) in bounces.iter().enumerate() {
+        let _ = write!(
+            text,
+            "        def Material \"Bounce{at}\" (
+            prepend apiSchemas = [\"PhysicsMaterialAPI\"]
+        )
+        {{
+            float physics:dynamicFriction = 0
+            float physics:restitution = {}
+            float physics:staticFriction = 0
+            custom uniform token physxMaterial:restitutionCombineMode = \"multiply\"
+        }}
+",
+            number(bounce.min(1.0))
+        );
+    }
+    text.push_str("    }\n\n");
+}
+
+fn prim(text: &mut String, body: &Body, name: &str, bounces: &[f64]) {
+    let kind = match body.shape {
+        Shape::Sphere { .. } => "Sphere",
+        Shape::Plane { .. } => "Mesh",
+        Shape::Unbuilt { .. } => "Xform",
+    };
+    let collides = !matches!(body.shape, Shape::Unbuilt { .. });
+    let schemas = [
+        (collides, "PhysicsCollisionAPI"),
+        (kind == "Mesh", "PhysicsMeshCollisionAPI"),
+        (body.is_dynamic(), "PhysicsRigidBodyAPI"),
+        (body.is_dynamic(), "PhysicsMassAPI"),
+        (collides, "MaterialBindingAPI"),
+    ];
+    let schemas: Vec<_> =
+        schemas.iter().filter(|(has, _)| *has).map(|(_, schema)| format!("\"{schema}\"")).collect();
+    let _ = write!(
+        text,
+        "        def {kind} \"{name}\" (
+            customData = {{
+{}            }}
+            displayName = {}
+            prepend apiSchemas = [{}]
+        )
+        {{
+",
+        custom_data(body),
+        quoted(body.display_name()),
+        schemas.join(", ")
+    );
+    for line in attributes(body, bounces) {
+        let _ = writeln!(text, "            {line}");
+    }
+    text.push_str("        }\n");
+}
+
+fn custom_data(body: &Body) -> String {
+    let mut data = format!("                string UserID = {}\n", quoted(&body.id.to_string()));
+    for (name, value) in [("group", &body.group), ("material", &body.material)] {
+        if let Some(value) = value {
+            let _ = writeln!(data, "                string {name} = {}", quoted(value));
+        }
+    }
+    data
+}
+
+fn attributes(body: &Body, bounces: &[f64]) -> Vec<String> {
+    let mut lines = shape(&body.shape);
+    if let Motion::Dynamic { mass, velocity } = body.motion {
+        lines.push(format!("float physics:mass = {}", number(mass)));
+        lines.push(format!("vector3f physics:velocity = {}", tuple(&velocity.to_array())));
+    }
+    if !matches!(body.shape, Shape::Unbuilt { .. }) {
+        let at = bounces.binary_search_by(|bounce| bounce.total_cmp(&body.bounce)).unwrap_or_default();
+        lines.push(format!("rel material:binding:physics = </World/Materials/Bounce{at}>"));
+    }
+    if let Some(color) = body.color {
+        let color = color.map(|channel| (f64::from(channel) / 255.0 * 1e4).round() / 1e4);
+        lines.push(format!("color3f[] primvars:displayColor = [{}]", tuple(&color)));
+    }
+    if body.hidden {
+        lines.push("token visibility = \"invisible\"".into());
+    }
+    let q = quaternion(rotation_matrix(body.rotation));
+    lines.push(format!("quatd xformOp:orient = {}", tuple(&[q.w, q.x, q.y, q.z])));
+    lines.push(format!("double3 xformOp:translate = {}", tuple(&body.position.to_array())));
+    lines.push("uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:orient\"]".into());
+    lines
+}
+
+fn shape(shape: &Shape) -> Vec<String> {
+    match *shape {
+        Shape::Sphere { radius } => vec![
+            format!("float3[] extent = [{}, {}]", tuple(&[-radius; 3]), tuple(&[radius; 3])),
+            format!("double radius = {}", number(radius)),
+        ],
+        Shape::Plane { half_x: x, half_y: y } => vec![
+            "uniform bool doubleSided = 1".into(),
+            format!("float3[] extent = [{}, {}]", tuple(&[-x, -y, 0.0]), tuple(&[x, y, 0.0])),
+            "int[] faceVertexCounts = [4]".into(),
+            "int[] faceVertexIndices = [0, 1, 2, 3]".into(),
+            format!(
+                "point3f[] points = [{}, {}, {}, {}]",
+                tuple(&[-x, -y, 0.0]),
+                tuple(&[x, -y, 0.0]),
+                tuple(&[x, y, 0.0]),
+                tuple(&[-x, y, 0.0])
+            ),
+            "uniform token subdivisionScheme = \"none\"".into(),
+            // The triangles themselves, not their convex hull.
+            "uniform token physics:approximation = \"none\"".into(),
+        ],
+        Shape::Unbuilt { .. } => Vec::new(),
+    }
+}
+
+fn tuple(values: &[f64]) -> String {
+    let values: Vec<_> = values.iter().map(|value| number(*value)).collect();
+    format!("({})", values.join(", "))
+}
+
+/// A string of USD, which knows no escapes but these.
+fn quoted(text: &str) -> String {
+    format!("\"{}\"", escaped(text).replace('\\', "\\\\").replace('"', "\\\""))
+}
+
+fn fate(aspect: Aspect) -> Fate {
+    match aspect {
+        Aspect::Spheres => kept(""),
+        Aspect::Plates => kept("as meshes of one square that collide as they are"),
+        Aspect::Unbuilt => dropped("frames without a shape are left"),
+        Aspect::Masses => kept("to the digits of a 32-bit number"),
+        Aspect::Velocities => kept("to the digits of a 32-bit number"),
+        Aspect::Bounce => approximated(
+            "each body has its Bounce, above 1 as 1; how two mix is up to the engine (PhysX is told to multiply, as here)",
+        ),
+        Aspect::Frictionless => kept("as friction 0"),
+        Aspect::UniformGravity => kept("as their sum"),
+        Aspect::PointGravity => dropped("a PhysicsScene has one uniform gravity"),
+        Aspect::Drag => dropped("UsdPhysics has no drag of air"),
+        Aspect::UserIds => kept("of bodies, in customData; forces have none"),
+        Aspect::BodyNames => kept("as displayName; names of prims are letters and digits"),
+        Aspect::Groups | Aspect::Materials => kept("in customData"),
+        Aspect::Colors => kept("as displayColor"),
+        Aspect::Hidden => kept("as invisible"),
+        Aspect::Locked => not_needed("protects bodies in this editor"),
+        Aspect::ForceLooks => not_needed("says where this editor draws and lists a force"),
+        Aspect::Map => not_needed("a search grid, on which no result depends"),
+        Aspect::TimeSpeed => dropped("nothing moves in the file"),
+        Aspect::Solver => dropped("settings of this program's core"),
+        Aspect::Viewpoints => dropped("not written by this version"),
+    }
+}
