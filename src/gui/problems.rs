@@ -56,6 +56,8 @@ impl Problems {
             return;
         }
         let fixes = self.list.iter().filter(|problem| matches!(problem.fix, Some(Fix::Repair(_)))).count();
+        // Half of what is left for the text, half for what to do: its buttons must be in sight.
+        let text_width = (0.5 * (ui.available_width() - 220.0)).clamp(120.0, 430.0);
         let table = TableBuilder::new(ui)
             .id_salt("problems")
             .striped(true)
@@ -64,7 +66,7 @@ impl Problems {
             .column(Column::exact(18.0))
             .column(Column::initial(64.0).resizable(true))
             .column(Column::initial(110.0).resizable(true).clip(true))
-            .column(Column::initial(430.0).resizable(true).clip(true))
+            .column(Column::initial(text_width).resizable(true).clip(true))
             .column(Column::remainder().clip(true));
         table
             .header(ROW_HEIGHT, |mut header| {

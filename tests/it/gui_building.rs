@@ -259,3 +259,20 @@ fn arrows_move_the_selection_by_the_snap_step() {
     window.key_with(Modifiers::COMMAND, Key::Z);
     assert!(!window.harness.state().session().is_dirty());
 }
+
+/// Symptom: a length of exactly 10 m was taken for a count, and drags left it where it was.
+#[test]
+fn lengths_of_a_dialog_can_be_dragged_from_any_value() {
+    let mut window = Window::empty();
+    window.palette("parts: plate facing");
+    window.type_number("Width", "10");
+    let field = window.harness.get_by_role_and_label(Role::SpinButton, "Width").rect().center();
+    let way =
+        [field, field + egui::vec2(3.0, 0.0), field + egui::vec2(6.0, 0.0), field + egui::vec2(9.0, 0.0)];
+    window.drag(&way, egui::PointerButton::Primary, Modifiers::NONE);
+    window.click("Create");
+    let polyscene::scene::Shape::Plane { half_x, .. } = window.scene().bodies[0].shape else {
+        panic!("a plate");
+    };
+    assert!(half_x > 5.0 && half_x < 6.0 && half_x.fract() != 0.0, "{half_x}");
+}
