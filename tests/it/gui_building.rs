@@ -276,3 +276,36 @@ fn lengths_of_a_dialog_can_be_dragged_from_any_value() {
     };
     assert!(half_x > 5.0 && half_x < 6.0 && half_x.fract() != 0.0, "{half_x}");
 }
+
+#[test]
+fn groups_with_strange_names_are_listed_and_renamed() {
+    let deep = "a/".repeat(30_000) + "z";
+    let text = include_str!("../../scenes/cradle.xml");
+    let at = text.find("<SoftObject").unwrap();
+    let end = at + text[at..].find('>').unwrap() + 1;
+    for group in [deep.as_str(), "/", "//x//", "  ", "a&#10;b", "\u{202e}abc"] {
+        let scene = format!("{}<?polyscene group=\"{group}\"?>{}", &text[..end], &text[end..]);
+        let mut window = Window::bytes(scene.as_bytes());
+        let rows = window.harness.query_all_by_role(Role::TreeItem).count();
+        let folder = window.labels().into_iter().find(|label| label.starts_with("Open "));
+        window.click(&folder.expect("a folder that can be opened"));
+        assert!(window.harness.query_all_by_role(Role::TreeItem).count() > rows, "{group:.9}");
+    }
+}
+
+/// Symptom: a name of slashes alone became a group without a name.
+#[test]
+fn a_group_keeps_its_name_where_the_new_one_is_empty() {
+    let mut window = Window::empty();
+    window.palette("parts: cradle");
+    window.click("Create");
+    for (typed, expected) in [("//", "cradle"), (" /toys/ ", "toys")] {
+        let row = window.harness.get_all_by_role(Role::TreeItem).find(|node| {
+            node.accesskit_node().label().is_some_and(|label| ["cradle", "toys"].contains(&label.as_str()))
+        });
+        let at = row.expect("the group").rect().center();
+        window.double_click_at(at);
+        window.type_text("New name", typed);
+        assert!(window.scene().bodies.iter().all(|body| body.group.as_deref() == Some(expected)), "{typed}");
+    }
+}
