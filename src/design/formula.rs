@@ -8,6 +8,10 @@ use crate::random::Random;
 /// How deep brackets and signs may nest; text from a clipboard can hold anything.
 const DEEPEST: usize = 32;
 
+/// Bytes of a formula: each term of a sum lies one level deeper in the tree than the next, and a tree is walked by
+/// recursion.
+const LONGEST: usize = 1000;
+
 /// What is typed, to be worked out for each of many.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Formula {
@@ -83,6 +87,9 @@ impl Formula {
     /// Reads a formula; where `angles`, in radians, and numbers may be followed by `°`, `deg` or `rad`.
     pub fn parse(text: &str, angles: bool) -> Option<Self> {
         let text = text.trim();
+        if text.len() > LONGEST {
+            return None;
+        }
         let assignment = ["+=", "-=", "*=", "/="].into_iter().find_map(|sign| {
             let rest = text.strip_prefix(sign)?;
             Some((sign.chars().next()?, rest))
@@ -390,6 +397,8 @@ mod tests {
         assert_eq!(Formula::parse(&"(".repeat(10_000), false), None);
         assert_eq!(Formula::parse(&"-".repeat(10_000), false), None);
         assert_eq!(Formula::parse(&"sin(".repeat(10_000), false), None);
+        assert_eq!(Formula::parse(&format!("{}1", "1+".repeat(200_000)), false), None);
+        assert_eq!(Formula::parse(&format!("{}1", "1*".repeat(200_000)), false), None);
     }
 
     #[test]

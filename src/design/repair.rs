@@ -15,6 +15,9 @@ use crate::scene::{Body, BodyChange, Document, Edit, EditError, ForceChange, Nod
 /// Rounds in which all pairs are pushed apart: chains of balls take about as many as they are long.
 const ROUNDS: usize = 400;
 
+/// Pairs looked at in all rounds together: a second or so, for the window waits.
+const MOST_PUSHES: usize = 1_000_000;
+
 pub(super) const PUSH_APART: Tool = Tool {
     id: "push_apart",
     label: "Push overlapping bodies apart",
@@ -144,7 +147,7 @@ fn push(a: &mut Body, b: &mut Body) -> Option<()> {
 
 fn push_all(scene: &Scene) -> Option<Plan> {
     let mut bodies = scene.bodies.clone();
-    let mut left = 0;
+    let (mut left, mut pushes) = (0, 0);
     for _ in 0..ROUNDS {
         let mut pairs = Vec::new();
         for_each_near(&bodies, 0.0, |a, b| {
@@ -154,9 +157,10 @@ fn push_all(scene: &Scene) -> Option<Plan> {
             true
         });
         left = pairs.len();
-        if left == 0 {
+        if left == 0 || pushes > MOST_PUSHES {
             break;
         }
+        pushes += left;
         // Plates last, so that no round ends with a ball behind one.
         pairs.sort_by_key(|&(a, b)| (!(bodies[a].is_dynamic() && bodies[b].is_dynamic()), a, b));
         for (a, b) in pairs {
@@ -168,7 +172,8 @@ fn push_all(scene: &Scene) -> Option<Plan> {
     }
     let moved = bodies.iter().zip(&scene.bodies).filter(|(now, before)| now.position != before.position);
     let edits: Vec<Edit> = moved.map(|(now, _)| placed(now)).collect();
-    let remark = (left > 0).then(|| format!("{left} pairs still overlap: there is too little room"));
+    let remark =
+        (left > 0).then(|| format!("{left} pairs still overlap: push them apart again, or make room"));
     let label = format!("Push {} bodies apart", edits.len());
     (!edits.is_empty()).then(|| Plan { remark, ..Plan::new(label, edits) })
 }

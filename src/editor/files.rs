@@ -191,7 +191,7 @@ impl Session {
             self.doc.file.stamp = None;
         } else if has_changed(path, stamp) && !self.doc.file.reported_change {
             self.doc.file.reported_change = true;
-            let text = format!("{} changed on the disk. File > Reload reads it again.", self.doc.file.title);
+            let text = format!("{} changed on the disk. File ▸ Reload reads it again.", self.doc.file.title);
             self.talk.notices.push(Notice::warning(text));
         }
     }

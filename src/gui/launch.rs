@@ -17,7 +17,7 @@ use crate::design::TOOLS;
 use crate::editor::{Action, Outcome, Storage};
 use crate::record::{RunState, ThreadRunner, Unanswered};
 use crate::render::{png, write_png};
-use crate::scene::{check_writable, same_file, shown_path};
+use crate::scene::{Force, check_writable, same_file, shown_path};
 
 /// How the window opens.
 #[derive(Clone, Debug, Default)]
@@ -300,7 +300,11 @@ impl App {
                 let key = self.session().scene().and_then(|scene| {
                     let body =
                         scene.bodies.iter().find(|body| body.display_name() == name || body.label == *name);
-                    let force = || scene.forces.iter().find(|force| force.label == *name);
+                    let force = || {
+                        let named =
+                            |force: &&Force| force.name.as_ref() == Some(name) || force.label == *name;
+                        scene.forces.iter().find(named)
+                    };
                     body.map(|body| body.key).or_else(|| force().map(|force| force.key))
                 });
                 let key = key.ok_or("no body or force has this name or ID")?;

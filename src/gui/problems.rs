@@ -64,6 +64,8 @@ impl Problems {
             ui.label(text);
             return;
         }
+        // Half of what is left for the text, half for what to do: its buttons must be in sight.
+        let text_width = (0.5 * (ui.available_width() - 190.0)).clamp(120.0, 430.0);
         let table = TableBuilder::new(ui)
             .id_salt("problems")
             .striped(true)
@@ -72,7 +74,7 @@ impl Problems {
             .column(Column::exact(18.0))
             .column(Column::initial(52.0).resizable(true))
             .column(Column::initial(80.0).resizable(true).clip(true))
-            .column(Column::initial(330.0).resizable(true).clip(true))
+            .column(Column::initial(text_width).resizable(true).clip(true))
             .column(Column::remainder().clip(true));
         table
             .header(ROW_HEIGHT, |mut header| {

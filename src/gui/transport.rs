@@ -48,6 +48,9 @@ const SPEEDS: [(f64, &str); 9] = [
 /// Room in which everything has its place, points.
 const WIDE: f32 = 1070.0;
 
+/// Below this, points, what the menus Edit and Add have too would lie over the speed and what is said beside it.
+const NARROW: f32 = 1000.0;
+
 /// Keeps what is being typed into Δt.
 #[derive(Default)]
 pub struct Transport {
@@ -59,6 +62,7 @@ impl Transport {
     pub fn show(&mut self, ui: &mut Ui, context: &AppContext<'_>, layout: Layout, snapping: bool) {
         // the scene's time speed is in the inspector too
         let wide = ui.available_width() > WIDE;
+        let narrow = ui.available_width() < NARROW;
         ui.horizontal_centered(|ui| {
             ui.spacing_mut().item_spacing.x = 3.0;
             for command in TRANSPORT {
@@ -80,6 +84,9 @@ impl Transport {
                 view_buttons(ui, context, layout);
                 snap_button(ui, context, snapping);
                 ui.separator();
+                if narrow {
+                    return;
+                }
                 ADDITIONS.iter().rev().for_each(|command| command_button(ui, context, *command));
                 ui.separator();
                 command_button(ui, context, SessionCommand::Redo);

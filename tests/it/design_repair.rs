@@ -182,3 +182,14 @@ fn many_troubles_are_listed_up_to_a_limit_and_counted() {
     assert_eq!(overlaps.count(), 201);
     assert!(found.iter().any(|trouble| trouble.message == "and 44650 more pairs overlap"));
 }
+
+/// Symptom: two thousand balls in one place kept the window waiting for most of a minute.
+#[test]
+fn pushing_a_crowd_apart_ends_soon_and_says_what_is_left() {
+    let balls = (1..=2000_i64).map(|id| ball(id, dvec3(5.0 + 1e-4 * id as f64, 5.0, 5.0), 0.5, 1.0));
+    let document = made(balls.collect());
+    let started = std::time::Instant::now();
+    let plan = repair(scene(&document), Repair::PushAllApart).expect("something to push");
+    assert!(started.elapsed().as_secs_f64() < 20.0, "{:?}", started.elapsed());
+    assert!(plan.remark.is_some_and(|remark| remark.contains("push them apart again")));
+}

@@ -341,3 +341,17 @@ fn groups_are_made_nested_renamed_and_left() {
     let left = apply(renamed, &design::ungroup(&given(renamed, keys)));
     assert_eq!(left.to_bytes(), balls.to_bytes());
 }
+
+/// Symptom: many more balls than find room were each tried in turn, and the window stood still while one typed.
+#[test]
+fn a_box_that_is_full_is_left_at_once() {
+    let document = empty();
+    let given = Given { scene: scene(&document), keys: &[], eye: Eye::default() };
+    let fill = tool("fill");
+    let started = std::time::Instant::now();
+    let plan = fill.plan(&given, &values(fill, &given, &[("Balls", 100_000.0)])).unwrap();
+    assert!(plan.remark.is_some_and(|remark| remark.contains("of 100000 found room")));
+    assert!(started.elapsed().as_secs_f64() < 10.0, "{:?}", started.elapsed());
+    let tiny = [("Smallest radius", 1e-9), ("Largest radius", 1e-9), ("Balls", 10.0)];
+    assert_eq!(fill.plan(&given, &values(fill, &given, &tiny)).unwrap().added(), 10);
+}

@@ -259,3 +259,53 @@ fn arrows_move_the_selection_by_the_snap_step() {
     window.key_with(Modifiers::COMMAND, Key::Z);
     assert!(!window.harness.state().session().is_dirty());
 }
+
+/// Symptom: a length of exactly 10 m was taken for a count, and drags left it where it was.
+#[test]
+fn lengths_of_a_dialog_can_be_dragged_from_any_value() {
+    let mut window = Window::empty();
+    window.palette("parts: plate facing");
+    window.type_number("Width", "10");
+    let field = window.harness.get_by_role_and_label(Role::SpinButton, "Width").rect().center();
+    let way =
+        [field, field + egui::vec2(3.0, 0.0), field + egui::vec2(6.0, 0.0), field + egui::vec2(9.0, 0.0)];
+    window.drag(&way, egui::PointerButton::Primary, Modifiers::NONE);
+    window.click("Create");
+    let polyscene::scene::Shape::Plane { half_x, .. } = window.scene().bodies[0].shape else {
+        panic!("a plate");
+    };
+    assert!(half_x > 5.0 && half_x < 6.0 && half_x.fract() != 0.0, "{half_x}");
+}
+
+#[test]
+fn groups_with_strange_names_are_listed_and_renamed() {
+    let deep = "a/".repeat(30_000) + "z";
+    let text = include_str!("../../scenes/cradle.xml");
+    let at = text.find("<SoftObject").unwrap();
+    let end = at + text[at..].find('>').unwrap() + 1;
+    for group in [deep.as_str(), "/", "//x//", "  ", "a&#10;b", "\u{202e}abc"] {
+        let scene = format!("{}<?polyscene group=\"{group}\"?>{}", &text[..end], &text[end..]);
+        let mut window = Window::bytes(scene.as_bytes());
+        let rows = window.harness.query_all_by_role(Role::TreeItem).count();
+        let folder = window.labels().into_iter().find(|label| label.starts_with("Open "));
+        window.click(&folder.expect("a folder that can be opened"));
+        assert!(window.harness.query_all_by_role(Role::TreeItem).count() > rows, "{group:.9}");
+    }
+}
+
+/// Symptom: a name of slashes alone became a group without a name.
+#[test]
+fn a_group_keeps_its_name_where_the_new_one_is_empty() {
+    let mut window = Window::empty();
+    window.palette("parts: cradle");
+    window.click("Create");
+    for (typed, expected) in [("//", "cradle"), (" /toys/ ", "toys")] {
+        let row = window.harness.get_all_by_role(Role::TreeItem).find(|node| {
+            node.accesskit_node().label().is_some_and(|label| ["cradle", "toys"].contains(&label.as_str()))
+        });
+        let at = row.expect("the group").rect().center();
+        window.double_click_at(at);
+        window.type_text("New name", typed);
+        assert!(window.scene().bodies.iter().all(|body| body.group.as_deref() == Some(expected)), "{typed}");
+    }
+}

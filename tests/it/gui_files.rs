@@ -4,6 +4,7 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 
+use super::editor_support::SCENE;
 use super::gui_support::{Window, sample_path};
 use polyscene::editor::{SAMPLES, SampleGroup};
 
@@ -149,4 +150,39 @@ fn work_is_taken_over_as_the_start() {
     window.menu("Edit", "Take current state as start");
     assert_eq!(window.body("15921").position, now);
     assert_eq!(window.frame().time, 0.0);
+}
+
+/// Symptom: the rest of a drag went to whatever had the same place in the next file.
+#[test]
+fn a_drag_ends_when_another_file_is_opened() {
+    let mut window = Window::bytes(SCENE.as_bytes());
+    let at = window.on_view(0, "Perspective view", window.body("7").position);
+    let way = [at, at + egui::vec2(10.0, 3.0), at + egui::vec2(40.0, 12.0)];
+    window.press(&way, egui::PointerButton::Primary, Modifiers::NONE);
+    assert!(window.harness.state().session().is_dirty(), "the drag moves something");
+    let file = Dropped(window.path());
+    window.harness.input_mut().dropped_files.push(std::sync::Arc::new(file));
+    window.harness.run_steps(4);
+    window.harness.get_by_label("Discard").click();
+    window.harness.run_steps(4);
+    for far in [60.0, 90.0] {
+        window.harness.event(egui::Event::PointerMoved(at + egui::vec2(far, 12.0)));
+        window.harness.run_steps(2);
+    }
+    assert!(!window.harness.state().session().is_dirty());
+}
+
+/// Symptom: a double click in the list of a save dialog replaced the file without a question.
+#[test]
+fn a_double_click_in_the_save_dialog_asks_before_it_replaces() {
+    let mut window = Window::thesis();
+    let other = window.folder.path().join("other.xml");
+    std::fs::write(&other, "work of another day").unwrap();
+    window.menu("File", "Save as…");
+    let at = window.harness.get_by_label("other.xml").rect().center();
+    window.double_click_at(at);
+    assert_eq!(std::fs::read_to_string(&other).unwrap(), "work of another day");
+    assert!(window.has_containing("This file exists"));
+    window.click_role(Role::Button, "Save");
+    assert_ne!(std::fs::read_to_string(&other).unwrap(), "work of another day");
 }

@@ -304,3 +304,32 @@ impl Window {
         std::fs::read(super::gui_support::sample_path("thesis-appendix-2")).unwrap()
     }
 }
+
+/// Symptom: at its smallest the tool bar drew its right half over the speeds, and the buttons of problems lay beyond the
+/// edge of their panel in a window of 1280 × 720.
+#[test]
+fn what_a_small_window_shows_can_be_reached() {
+    let mut window = Window::thesis();
+    window.harness.set_size(vec2(800.0, 500.0));
+    window.harness.run_steps(4);
+    let bar = |rect: &egui::Rect| rect.center().y > 25.0 && rect.center().y < 58.0;
+    let buttons = window.harness.query_all_by_role(Role::Button).map(|node| node.rect());
+    let choices = window.harness.query_all_by_role(Role::ComboBox).map(|node| node.rect());
+    let rects: Vec<egui::Rect> = buttons.chain(choices).filter(bar).collect();
+    assert!(rects.len() > 8, "{rects:?}");
+    for (nth, a) in rects.iter().enumerate() {
+        assert!(rects[..nth].iter().all(|b| !a.shrink(1.0).intersects(b.shrink(1.0))), "{a:?} in {rects:?}");
+    }
+
+    let mut window = Window::empty();
+    window.harness.set_size(vec2(1280.0, 720.0));
+    window.menu("Add", "Dynamic sphere");
+    window.menu("Add", "Dynamic sphere");
+    window.type_number("Position x", "5.4");
+    window.type_number("Position y", "5");
+    window.type_number("Position z", "5");
+    window.click("Problems (1 warning)");
+    let edge = window.harness.get_by_label("Inspector").rect().left();
+    let button = window.harness.get_by_role_and_label(Role::Button, "Push apart").rect();
+    assert!(button.right() < edge, "{button:?} beyond {edge}");
+}

@@ -16,6 +16,10 @@ use crate::scene::{Body, Motion, Shape};
 /// Places tried for each ball: random places fill about a third of a box before most tries fail.
 const TRIES: usize = 200;
 
+/// Balls in a row that find no place before the box counts as full; without it many more than find room keep the
+/// window waiting.
+const MISSES: usize = 8;
+
 const LENGTH: Kind = Kind::Number(1e-9, 1e9);
 
 pub const FILL: Tool = Tool {
@@ -85,11 +89,18 @@ pub const FILL: Tool = Tool {
         let mut taken = Taken::new(&given.scene.bodies, large);
         let within = around(given);
         let mut builder = Builder::part(given, "filling");
-        let mut found = 0;
+        let (mut found, mut misses) = (0, 0);
         for _ in 0..wanted {
             let radius = digits(random.range(small, large), large);
             let share = radius / large;
-            let Some(at) = free_place(&mut random, &taken, within, radius) else { continue };
+            let Some(at) = free_place(&mut random, &taken, within, radius) else {
+                misses += 1;
+                if misses == MISSES {
+                    break;
+                }
+                continue;
+            };
+            misses = 0;
             taken.add(at, radius);
             builder.ball(
                 "ball",
@@ -171,7 +182,8 @@ impl Taken {
 
     fn is_free(&self, at: DVec3, radius: f64) -> bool {
         let [x, y, z] = self.cell_of(at);
-        let cells = (0..27).map(|nth| [x + nth % 3 - 1, y + nth / 3 % 3 - 1, z + nth / 9 - 1]);
+        let beside = |place: i64, nth: i64| place.saturating_add(nth % 3 - 1);
+        let cells = (0..27).map(|nth| [beside(x, nth), beside(y, nth / 3), beside(z, nth / 9)]);
         let near = cells.filter_map(|cell| self.cells.get(&cell)).flatten();
         let mut ball = Body::new(0, at, Motion::Static, Shape::Sphere { radius });
         ball.position = at;

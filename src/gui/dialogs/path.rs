@@ -102,7 +102,7 @@ impl PathDialog {
     }
 
     fn listing(&mut self, ui: &mut Ui, decided: &mut Option<Message>) {
-        let mut enter = None;
+        let (mut enter, mut taken) = (None, false);
         egui::Frame::new().fill(ui.visuals().extreme_bg_color).inner_margin(4).show(ui, |ui| {
             ScrollArea::vertical().max_height(260.0).auto_shrink([false, false]).show(ui, |ui| {
                 for entry in &self.entries {
@@ -113,14 +113,15 @@ impl PathDialog {
                     } else if response.clicked() {
                         self.text.clone_from(&entry.name);
                     }
-                    if response.double_clicked() && !entry.is_folder {
-                        *decided = Some(self.request.message(self.folder.join(&entry.name)));
-                    }
+                    taken |= response.double_clicked() && !entry.is_folder;
                 }
             });
         });
         if let Some(folder) = enter {
             self.enter(folder);
+        } else if taken {
+            // as the button does: it asks before a file is replaced
+            *decided = self.accept();
         }
     }
 

@@ -164,9 +164,10 @@ fn field(ui: &mut Ui, input: &Input, value: &mut f64) {
     ui.label(input.label).on_hover_text(input.help);
     let response = match input.kind {
         Kind::Number(low, high) => {
-            number(ui, value, 0.01 * value.abs().max(1e-3 * high.min(1.0)), (low, high))
+            let speed = 0.01 * value.abs().max(1e-3 * high.min(1.0));
+            number(ui, value, speed, (low, high), false)
         }
-        Kind::Whole(low, high) => number(ui, value, 0.1, (low, high)),
+        Kind::Whole(low, high) => number(ui, value, 0.1, (low, high), true),
         Kind::Choice(choices) => {
             let mut chosen = (*value as usize).min(choices.len().saturating_sub(1));
             let shown = choices.get(chosen).copied().unwrap_or_default();
@@ -192,8 +193,7 @@ fn field(ui: &mut Ui, input: &Input, value: &mut f64) {
 }
 
 /// Drags stop at the range; what is typed outside of it is refused by the tool, in words.
-fn number(ui: &mut Ui, value: &mut f64, speed: f64, range: (f64, f64)) -> egui::Response {
-    let whole = value.fract() == 0.0 && speed == 0.1;
+fn number(ui: &mut Ui, value: &mut f64, speed: f64, range: (f64, f64), whole: bool) -> egui::Response {
     let before = *value;
     let widget = DragValue::new(value)
         .speed(speed)

@@ -247,7 +247,11 @@ impl Tree {
         }
         if response.lost_focus() {
             let cancelled = ui.input(|input| input.key_pressed(egui::Key::Escape));
-            let text = renaming.text.trim();
+            let text = match renaming.what {
+                Renamed::Item(_) => renaming.text.trim(),
+                // Names of groups inside others are parted by these, and none is empty.
+                Renamed::Group(_) => renaming.text.trim_matches(|c: char| c == '/' || c.is_whitespace()),
+            };
             let action = rename_action(context, shown, &renaming.what, text).filter(|_| !cancelled);
             if let (Some(action), Renamed::Group(_)) = (&action, &renaming.what) {
                 // It stays open under its new name.
@@ -270,7 +274,7 @@ fn rename_action(context: &AppContext<'_>, shown: &Shown, what: &Renamed, text: 
         Renamed::Group(path) if text.is_empty() || text == path => None,
         Renamed::Group(path) => {
             let given = context.session.given(Eye::default())?;
-            Some(Action::Apply(design::rename_group(&given, path, text.trim_matches('/'))))
+            Some(Action::Apply(design::rename_group(&given, path, text)))
         }
     }
 }

@@ -13,6 +13,9 @@ use crate::gui::context::{AppContext, Message, Shown};
 use crate::gui::{numbers, widgets};
 use crate::scene::{Edit, NodeKey, Scene};
 
+/// How deep groups nest in the tree; a file may say anything, and what lies deeper has the rest of its path as its name.
+const DEEPEST: usize = 12;
+
 /// One row of a group.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Named {
@@ -27,7 +30,8 @@ pub struct Named {
 
 impl Named {
     fn name(&self) -> &str {
-        self.path.rsplit('/').next().unwrap_or(&self.path)
+        let name = self.path.splitn(DEEPEST, '/').last().unwrap_or_default();
+        if name.trim().is_empty() { "(no name)" } else { name }
     }
 }
 
@@ -57,7 +61,7 @@ pub fn collect(
         Some((force.group.as_deref()?, row, force.key, force.hidden, force.locked))
     });
     for (group, row, key, hidden, locked) in forces.chain(bodies) {
-        let path: Vec<&str> = group.split('/').collect();
+        let path: Vec<&str> = group.splitn(DEEPEST, '/').collect();
         for depth in 1..=path.len() {
             let content = groups.entry(path[..depth].to_vec()).or_default();
             content.keys.push(key);
@@ -109,7 +113,7 @@ impl Tree {
         let body = shown.body(*key).and_then(|body| body.group.as_deref());
         let group = body.or_else(|| shown.force(*key).and_then(|force| force.group.as_deref()));
         let Some(group) = group else { return };
-        let ends = group.match_indices('/').map(|(at, _)| at).chain([group.len()]);
+        let ends = group.match_indices('/').take(DEEPEST - 1).map(|(at, _)| at).chain([group.len()]);
         self.open_named.extend(ends.map(|end| group[..end].to_owned()));
     }
 

@@ -24,6 +24,7 @@ use crate::view::{
 };
 
 pub use canvas::Canvas;
+use gestures::Gestures;
 use pane::{Following, Pane};
 
 /// How many views are shown.
@@ -155,6 +156,8 @@ impl Views {
         for pane in &mut self.panes {
             pane.wants_framing = true;
             pane.follow = None;
+            // what was being dragged belongs to the scene before
+            pane.gestures = Gestures::default();
         }
     }
 
