@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::capture::free_if_struck;
 use super::contact::Contact;
 use super::dense::{
-    LARGE_ISLAND, Role, SMALLEST_ELASTIC_CROWD, component, enter, least_crowd, note_impact, note_work,
+    LARGE_ISLAND, Role, component, enter, least_crowd, least_elastic_crowd, note_impact, note_work,
 };
 use super::event::{Event, EventKind};
 use super::exchange::{exchange, velocity_change};
@@ -72,11 +72,11 @@ pub(super) fn resolve(
 /// Of how many moving bodies the component of an impact must be to be stepped; `None` if it is not. Of an elastic pair
 /// both must be struck often: a large body among many small ones is, and they are not.
 fn least_crowd_of(model: &Model, state: &State, pair: Pair, gap: &Gap, time: f64) -> Option<usize> {
-    let mut of_each = pair.dynamic().map(|body| least_crowd(model, state, body, time));
     if restitution_at(model, pair, -gap.rate) < 1.0 {
-        return of_each.flatten().min();
+        return pair.dynamic().filter_map(|body| least_crowd(model, state, body, time)).min();
     }
-    of_each.try_fold(SMALLEST_ELASTIC_CROWD, |most, least| Some(most.max(least?)))
+    let mut of_each = pair.dynamic().map(|body| least_elastic_crowd(model, state, body, time));
+    of_each.try_fold(0, |most, least| Some(most.max(least?)))
 }
 
 /// Lets the bodies of an impact be stepped with all that they touch, if so many can move; whether they can.

@@ -3,8 +3,8 @@
 
 use super::data::{Activity, Decaying};
 use super::tolerance::{
-    CROWDED, HALF_LIFE, HALF_LIFE_OF_WORK, LEAST_STRUCK, MOST_AT_ONE_INSTANT, SMALLEST_CROWD, STRUCK_OFTEN,
-    TOO_MUCH_WORK, WORK_OF_CUBE,
+    CROWDED, HALF_LIFE, HALF_LIFE_OF_WORK, LEAST_STRUCK, MOST_AT_ONE_INSTANT, SMALLEST_CROWD,
+    SMALLEST_ELASTIC_CROWD, STRUCK_OFTEN, TOO_MUCH_WORK, WORK_OF_CUBE,
 };
 use crate::sim::model::Model;
 use crate::sim::state::State;
@@ -15,6 +15,7 @@ pub(in crate::sim) fn note_impact(model: &Model, state: &mut State, body: u32, t
         let activity = &mut dense.activity[body as usize];
         activity.impacts.add(1.0, time, HALF_LIFE * model.dense_step);
         if is_lossy {
+            activity.lossy.add(1.0, time, HALF_LIFE * model.dense_step);
             if activity.instant != time {
                 (activity.instant, activity.at_once) = (time, 0);
             }
@@ -41,12 +42,27 @@ pub(in crate::sim) fn note_work(model: &Model, state: &mut State, bodies: &[u32]
 /// Of how many moving bodies a component must be to be stepped, as this one is struck so often or its motion costs so
 /// much; `None` if it is not.
 pub(in crate::sim) fn least_crowd(model: &Model, state: &State, body: u32, time: f64) -> Option<usize> {
-    let Activity { impacts, work, instant, at_once } = &state.dense.as_ref()?.activity[body as usize];
+    let Activity { lossy, work, instant, at_once, .. } = &state.dense.as_ref()?.activity[body as usize];
     let is_stuck = *instant == time && *at_once >= MOST_AT_ONE_INSTANT;
     if is_stuck || work.at(time, HALF_LIFE_OF_WORK * model.dense_step) >= TOO_MUCH_WORK {
         return Some(2);
     }
-    let struck = impacts.at(time, HALF_LIFE * model.dense_step);
+    crowd(lossy.at(time, HALF_LIFE * model.dense_step))
+}
+
+/// The same for a body that an elastic pair has in common, whatever it has met before.
+pub(in crate::sim) fn least_elastic_crowd(
+    model: &Model,
+    state: &State,
+    body: u32,
+    time: f64,
+) -> Option<usize> {
+    let impacts = &state.dense.as_ref()?.activity[body as usize].impacts;
+    crowd(impacts.at(time, HALF_LIFE * model.dense_step)).map(|least| least.max(SMALLEST_ELASTIC_CROWD))
+}
+
+/// How many bodies must move together that are struck this often.
+fn crowd(struck: f64) -> Option<usize> {
     if struck >= STRUCK_OFTEN {
         return Some(SMALLEST_CROWD);
     }

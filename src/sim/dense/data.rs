@@ -21,8 +21,9 @@ pub(in crate::sim) enum Role {
 /// What a body has been through in the last steps.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::sim) struct Activity {
-    /// Its impacts.
+    /// Its impacts, and those of them that lose energy.
     pub impacts: Decaying,
+    pub lossy: Decaying,
     /// What it cost to resolve and integrate it with others, in steps of a group.
     pub work: Decaying,
     /// Time of the last lossy impact, s, and how many there were at that time.

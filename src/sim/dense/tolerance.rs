@@ -100,7 +100,7 @@ pub(super) const SMALLEST_CROWD: usize = 4;
 
 /// Elastic bodies that squeeze each other part again, after ever so many impacts as their masses differ. Up to eight are
 /// followed through them all; among more there is no end to it.
-pub(in crate::sim) const SMALLEST_ELASTIC_CROWD: usize = 9;
+pub(super) const SMALLEST_ELASTIC_CROWD: usize = 9;
 
 /// What it costs to go on from impact to impact grows with the bodies too: larger components are stepped from so many
 /// impacts times bodies on, those of a thousand from some two impacts a step.
