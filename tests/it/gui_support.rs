@@ -181,17 +181,6 @@ impl Window {
         self.harness.run();
     }
 
-    /// Two clicks so soon after each other that they are one double click.
-    pub fn double_click_at(&mut self, at: Pos2) {
-        self.harness.event(Event::PointerMoved(at));
-        self.harness.run();
-        for pressed in [true, false, true, false] {
-            let (button, modifiers) = (egui::PointerButton::Primary, Modifiers::NONE);
-            self.harness.event(Event::PointerButton { pos: at, button, pressed, modifiers });
-        }
-        self.harness.run();
-    }
-
     /// Presses at one place, goes through others, and releases at the last.
     pub fn drag(&mut self, way: &[Pos2], button: egui::PointerButton, modifiers: Modifiers) {
         self.press(way, button, modifiers);
