@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::extent::Extent;
 use super::gap::{gap, tolerance};
-use super::place::round;
+use super::place::{clear_step, round};
 use super::plan::Plan;
 use crate::scene::{Body, BodyChange, BodyCopy, Edit, Force, Names, NodeKey, Scene};
 
@@ -129,7 +129,7 @@ fn clear_offset(scene: &Scene, bodies: &[&Body], step: Option<DVec3>) -> DVec3 {
     let mut ways = Vec::new();
     for sign in [1.0, -1.0] {
         for axis in [0, 2, 1] {
-            let pitch = step_along(all.size()[axis], least);
+            let pitch = clear_step(all.size()[axis], least);
             ways.extend((1..=MULTIPLES).map(|times| DVec3::AXES[axis] * (sign * pitch * times as f64)));
         }
     }
@@ -140,10 +140,4 @@ fn clear_offset(scene: &Scene, bodies: &[&Body], step: Option<DVec3>) -> DVec3 {
     });
     let first = ways.first().copied().unwrap_or(DVec3::X * least);
     ways.into_iter().find(|way| is_clear(scene, bodies, *way)).unwrap_or(first)
-}
-
-/// A tenth more than the size, as a number with two digits: 1.1 for a ball of 1 m.
-fn step_along(size: f64, least: f64) -> f64 {
-    let clear = size * 1.1;
-    if clear > least { format!("{clear:.1e}").parse().unwrap_or(clear) } else { least }
 }

@@ -13,6 +13,13 @@ pub fn round(value: f64) -> f64 {
     format!("{value:.0e}").parse().unwrap_or(value)
 }
 
+/// A step that takes a copy clear of what is this large: a tenth more, as a number with two digits (1.1 for a ball of
+/// 1 m), but no less than `least`.
+pub(super) fn clear_step(size: f64, least: f64) -> f64 {
+    let clear = size * 1.1;
+    if clear > least { format!("{clear:.1e}").parse().unwrap_or(clear) } else { least }
+}
+
 /// A share of the map's smallest side, rounded.
 pub(super) fn of_map(given: &Given<'_>, share: f64) -> f64 {
     round(given.scene.map.size.min_element() * share)

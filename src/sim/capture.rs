@@ -6,7 +6,6 @@
 use glam::DVec3;
 
 use super::body::BodyId;
-use super::dense::has_been_struck;
 use super::event::{Event, EventKind};
 use super::force::Law;
 use super::ledger::record;
@@ -69,7 +68,7 @@ fn is_disturbed(model: &Model, state: &State, body: u32) -> bool {
     let reversible = |law: &Law| matches!(law, Law::Point { .. }) || law.is_uniform();
     state.segments[body as usize].constrained
         || state.cascades[body as usize].reference > 0.0
-        || has_been_struck(state, body)
+        || state.cascades[body as usize].is_struck
         || !model.forces.iter().all(|force| reversible(&force.law))
 }
 

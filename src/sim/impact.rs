@@ -112,7 +112,7 @@ fn collapse(model: &Model, state: &mut State, group: &mut Group) -> bool {
             collapsed.extend(member.pair.dynamic());
         }
     }
-    note_lossy(model, state, impacts);
+    remember(model, state, impacts);
     if group.resolve(model.params.collapse_share) {
         let is_lossy = |member: &&Member| {
             member.impulse > 0.0 && member.restitution < 1.0 && are_both_free(state, member.pair)
@@ -150,7 +150,7 @@ fn is_near_rest(model: &Model, pair: Pair, gap: &Gap) -> bool {
 
 /// Newton's law for two bodies that touch nothing else, which then go on.
 fn bounce(model: &Model, state: &mut State, time: f64, pair: Pair, gap: &Gap) -> Result<(), Fault> {
-    note_lossy(model, state, [(pair, -gap.rate)]);
+    remember(model, state, [(pair, -gap.rate)]);
     let is_lossy = restitution_at(model, pair, -gap.rate) < 1.0;
     pair.dynamic().for_each(|body| note_impact(model, state, body, time, is_lossy));
     let impulse = exchange(model, state, time, pair, gap);
@@ -308,12 +308,16 @@ fn are_both_free(state: &State, pair: Pair) -> bool {
     !state.is_fixed(pair.a) && !state.is_fixed(pair.b)
 }
 
-/// Remembers the lossy impacts of dynamic bodies.
-fn note_lossy(model: &Model, state: &mut State, impacts: impl IntoIterator<Item = (Pair, f64)>) {
+/// Remembers the impacts of dynamic bodies with each other.
+fn remember(model: &Model, state: &mut State, impacts: impl IntoIterator<Item = (Pair, f64)>) {
     for (pair, closing) in impacts {
-        let Some(other) = pair.second().filter(|_| restitution_at(model, pair, closing) < 1.0) else {
+        let Some(other) = pair.second() else { continue };
+        if !model.is_ballistic() {
+            pair.dynamic().for_each(|body| state.cascades[body as usize].is_struck = true);
+        }
+        if restitution_at(model, pair, closing) >= 1.0 {
             continue;
-        };
+        }
         let is_collapsing = is_collapsing(model, state, pair, closing);
         for body in [pair.first(), other] {
             let cascade = &mut state.cascades[body as usize];

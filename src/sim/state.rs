@@ -41,7 +41,7 @@ pub(super) struct State {
     pub contacts: Vec<Vec<Contact>>,
     /// Dynamic bodies that lie against each body and hardly move away, without lasting contact.
     pub touching: Vec<Vec<u32>>,
-    /// The lossy impacts of each body.
+    /// The impacts of each body with others that move.
     pub cascades: Vec<Cascade>,
     /// Bodies that are stepped; none where the scene can have no such groups.
     pub dense: Option<Box<Dense>>,
@@ -66,7 +66,7 @@ pub(super) struct FieldColumn {
     pub next_step: f64,
 }
 
-/// What the lossy impacts of one body with other dynamic ones have been like, to tell an inelastic collapse.
+/// What the impacts of one body with other dynamic ones have been like, lossy ones to tell an inelastic collapse.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Cascade {
     /// Closing speed of the fastest of the last ones, m/s.
@@ -75,6 +75,8 @@ pub(super) struct Cascade {
     pub since: u32,
     /// Whether a collapse was reported since.
     pub is_reported: bool,
+    /// Whether there was any, also an elastic one, while forces were integrated.
+    pub is_struck: bool,
 }
 
 /// Marks that tell which bodies were seen in the present look through the tiles.

@@ -292,3 +292,20 @@ fn groups_with_strange_names_are_listed_and_renamed() {
         assert!(window.harness.query_all_by_role(Role::TreeItem).count() > rows, "{group:.9}");
     }
 }
+
+/// Symptom: a name of slashes alone became a group without a name.
+#[test]
+fn a_group_keeps_its_name_where_the_new_one_is_empty() {
+    let mut window = Window::empty();
+    window.palette("parts: cradle");
+    window.click("Create");
+    for (typed, expected) in [("//", "cradle"), (" /toys/ ", "toys")] {
+        let row = window.harness.get_all_by_role(Role::TreeItem).find(|node| {
+            node.accesskit_node().label().is_some_and(|label| ["cradle", "toys"].contains(&label.as_str()))
+        });
+        let at = row.expect("the group").rect().center();
+        window.double_click_at(at);
+        window.type_text("New name", typed);
+        assert!(window.scene().bodies.iter().all(|body| body.group.as_deref() == Some(expected)), "{typed}");
+    }
+}

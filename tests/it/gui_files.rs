@@ -171,3 +171,18 @@ fn a_drag_ends_when_another_file_is_opened() {
     }
     assert!(!window.harness.state().session().is_dirty());
 }
+
+/// Symptom: a double click in the list of a save dialog replaced the file without a question.
+#[test]
+fn a_double_click_in_the_save_dialog_asks_before_it_replaces() {
+    let mut window = Window::thesis();
+    let other = window.folder.path().join("other.xml");
+    std::fs::write(&other, "work of another day").unwrap();
+    window.menu("File", "Save as…");
+    let at = window.harness.get_by_label("other.xml").rect().center();
+    window.double_click_at(at);
+    assert_eq!(std::fs::read_to_string(&other).unwrap(), "work of another day");
+    assert!(window.has_containing("This file exists"));
+    window.click_role(Role::Button, "Save");
+    assert_ne!(std::fs::read_to_string(&other).unwrap(), "work of another day");
+}

@@ -181,6 +181,17 @@ impl Window {
         self.harness.run();
     }
 
+    /// Two clicks so soon after each other that they are one double click.
+    pub fn double_click_at(&mut self, at: Pos2) {
+        self.harness.event(Event::PointerMoved(at));
+        self.harness.run();
+        // All in one frame: events that are queued get a frame each, a quarter of a second after the one before.
+        let (button, modifiers) = (egui::PointerButton::Primary, Modifiers::NONE);
+        let event = |pressed| Event::PointerButton { pos: at, button, pressed, modifiers };
+        self.harness.input_mut().events.extend([true, false, true, false].map(event));
+        self.harness.run();
+    }
+
     /// Presses at one place, goes through others, and releases at the last.
     pub fn drag(&mut self, way: &[Pos2], button: egui::PointerButton, modifiers: Modifiers) {
         self.press(way, button, modifiers);

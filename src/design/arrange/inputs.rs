@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::design::extent::Extent;
-use crate::design::place::{of_map, round};
+use crate::design::place::{clear_step, of_map};
 use crate::design::plan::Given;
 use crate::design::tool::{Input, Kind};
 use crate::scene::{BodyChange, Edit, NodeKey};
@@ -33,13 +33,9 @@ pub fn around(given: &Given<'_>) -> Extent {
     Extent::around(given.bodies()).unwrap_or(Extent { min: DVec3::ZERO, max: given.scene.map.size })
 }
 
-/// A step that takes a copy clear of its original along an axis: a tenth more than its size.
+/// A step that takes a copy clear of its original along an axis.
 pub fn pitch(given: &Given<'_>, axis: usize) -> f64 {
-    let size = around(given).size()[axis];
-    let least = of_map(given, 0.05);
-    let clear = size * 1.1;
-    // Two digits, so that 1.1 stays 1.1.
-    if clear > least { format!("{clear:.1e}").parse().unwrap_or(clear) } else { round(least) }
+    clear_step(around(given).size()[axis], of_map(given, 0.05))
 }
 
 pub fn check_count(copies: usize) -> Result<(), String> {

@@ -24,11 +24,6 @@ pub(in crate::sim) fn note_impact(model: &Model, state: &mut State, body: u32, t
     }
 }
 
-/// Whether a body has had an impact.
-pub(in crate::sim) fn has_been_struck(state: &State, body: u32) -> bool {
-    state.dense.as_ref().is_some_and(|dense| dense.activity[body as usize].impacts.sum > 0.0)
-}
-
 /// Notes that lossy bodies were resolved or integrated together.
 pub(in crate::sim) fn note_work(model: &Model, state: &mut State, bodies: &[u32], time: f64) {
     let Some(dense) = &mut state.dense else { return };
@@ -50,7 +45,7 @@ pub(in crate::sim) fn least_crowd(model: &Model, state: &State, body: u32, time:
     crowd(lossy.at(time, HALF_LIFE * model.dense_step))
 }
 
-/// The same for a body that an elastic pair has in common, whatever it has met before.
+/// The same for a body of an elastic pair: by all its impacts, for elastic ones come without end too.
 pub(in crate::sim) fn least_elastic_crowd(
     model: &Model,
     state: &State,

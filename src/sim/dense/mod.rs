@@ -27,7 +27,7 @@ mod sweep;
 mod tolerance;
 mod view;
 
-pub(super) use activity::{has_been_struck, least_crowd, least_elastic_crowd, note_impact, note_work};
+pub(super) use activity::{least_crowd, least_elastic_crowd, note_impact, note_work};
 pub(super) use clock::step_length;
 pub(super) use data::{Dense, Role};
 pub(super) use group_step::{enter, next_step, reach, step, wake_all};
