@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::{Answer, Gesture, Place, SessionCommand};
 use crate::design::{Plan, Repair};
-use crate::record::EventRow;
+use crate::record::{EventRow, Goal};
 use crate::scene::{Edit, NodeKey};
 use crate::sim::Method;
 
@@ -28,8 +28,20 @@ pub enum Action {
     SelectPlace(Place),
     /// Shows the place of an event in the views.
     ShowEvent(Option<Arc<EventRow>>),
-    /// Shows the event of this number and selects its bodies; goes back to it unless it is listed.
+    /// Goes to the event of this number, shows it and selects its bodies.
     GoToEvent(u64),
+
+    /// To a time of the run, s: into what is recorded, or on to it.
+    Seek(f64),
+    RunUntil(Goal),
+    /// What playing goes over again and again, s.
+    SetRange(Option<(f64, f64)>),
+    /// Bookmarks in the order of their times.
+    GoToBookmark(usize),
+    RenameBookmark(usize, String),
+    RemoveBookmark(usize),
+    /// Bytes that the recording may take.
+    SetMemory(usize),
 
     /// Δt as typed.
     SetDt(String),

@@ -1,8 +1,10 @@
 //! The one table of commands. It feeds menus, tool bar, shortcuts, palette, help sheet and tests.
 
 use super::Session;
-use super::command::{Addition, Command, Key, Menu, SessionCommand, Shortcut, ViewCommand, WindowCommand};
-use super::command_info::CommandInfo;
+use super::command::{
+    Addition, Command, Key, Menu, SessionCommand, Shortcut, TravelCommand, ViewCommand, WindowCommand,
+};
+use super::command_info::{CommandInfo, row};
 use crate::scene::NumberStyle;
 use crate::view::{AxisView, Tool};
 
@@ -234,6 +236,92 @@ pub const COMMANDS: &[CommandInfo] = &[
     .icon('⏭')
     .keys(&[Shortcut::plain(Key::End)])
     .when(Session::can_finish_step),
+    row(
+        Menu::Simulation,
+        1,
+        "next_event_of_selection",
+        "Next event of the selection",
+        "Goes on to the next event of the selected body, or between the two that are selected",
+    )
+    .session(SessionCommand::Travel(TravelCommand::NextEventOfSelection))
+    .keys(&[Shortcut::shift(Key::Char('N'))])
+    .when(Session::can_find_its_events),
+    row(
+        Menu::Simulation,
+        1,
+        "event_back_of_selection",
+        "Event of the selection back",
+        "Goes back to the last event of the selected body, or between the two that are selected",
+    )
+    .session(SessionCommand::Travel(TravelCommand::EventBackOfSelection))
+    .keys(&[Shortcut::shift(Key::Char('B'))])
+    .when(Session::can_go_to_its_events),
+    row(Menu::Simulation, 1, "run_to_rest", "Run until all is at rest", "Goes on until no body moves")
+        .session(SessionCommand::Travel(TravelCommand::RunToRest))
+        .when(Session::can_run),
+    row(
+        Menu::Simulation,
+        1,
+        "play_back",
+        "Play backwards",
+        "Plays what is recorded backwards, or stops",
+    )
+    .session(SessionCommand::Travel(TravelCommand::PlayBack))
+    .keys(&[Shortcut::shift(Key::Space)])
+    .when(Session::can_step_back),
+    row(
+        Menu::Simulation,
+        1,
+        "go_to_begin",
+        "To the begin of the recording",
+        "Shows the start, or the first time that is kept; the recording stays",
+    )
+    .session(SessionCommand::Travel(TravelCommand::GoToBegin))
+    .keys(&[Shortcut::plain(Key::Home)])
+    .when(Session::can_step_back),
+    row(
+        Menu::Simulation,
+        1,
+        "go_to_end",
+        "To the end of the recording",
+        "Shows the last time that was reached",
+    )
+    .session(SessionCommand::Travel(TravelCommand::GoToEnd))
+    .keys(&[Shortcut::shift(Key::End)])
+    .when(Session::can_go_to_end),
+    row(
+        Menu::Simulation,
+        2,
+        "add_bookmark",
+        "Add bookmark",
+        "Marks this moment on the timeline, to come back to it",
+    )
+    .session(SessionCommand::Travel(TravelCommand::AddBookmark))
+    .keys(&[Shortcut::plain(Key::Char('M'))])
+    .when(Session::can_run),
+    row(Menu::Simulation, 2, "next_bookmark", "Next bookmark", "Shows the next moment that is marked")
+        .session(SessionCommand::Travel(TravelCommand::NextBookmark))
+        .keys(&[Shortcut::plain(Key::Char(']'))])
+        .when(Session::can_go_to_next_bookmark),
+    row(
+        Menu::Simulation,
+        2,
+        "last_bookmark",
+        "Last bookmark",
+        "Shows the moment before this one that is marked",
+    )
+    .session(SessionCommand::Travel(TravelCommand::LastBookmark))
+    .keys(&[Shortcut::plain(Key::Char('['))])
+    .when(Session::can_go_to_last_bookmark),
+    row(
+        Menu::Simulation,
+        2,
+        "bring_back",
+        "Bring back the replaced future",
+        "Takes the last edit in the past out of the run: what was recorded before it comes after that moment again",
+    )
+    .session(SessionCommand::Travel(TravelCommand::BringBack))
+    .when(Session::can_bring_back),
     row(Menu::Simulation, 1, "step_forward_five", "Five steps forward", "Goes on by five Δt")
         .session(SessionCommand::StepForwardFive)
         .keys(&[Shortcut::shift(Key::Char('.'))])
@@ -389,56 +477,4 @@ pub const COMMANDS: &[CommandInfo] = &[
 pub fn info(command: impl Into<Command>) -> Option<&'static CommandInfo> {
     let command = command.into();
     COMMANDS.iter().find(|row| row.command == command)
-}
-
-const fn row(
-    menu: Menu,
-    group: u8,
-    id: &'static str,
-    label: &'static str,
-    help: &'static str,
-) -> CommandInfo {
-    CommandInfo {
-        command: Command::Window(WindowCommand::About),
-        id,
-        label,
-        menu,
-        group,
-        shortcuts: &[],
-        icon: None,
-        help,
-        enabled: |_| Ok(()),
-    }
-}
-
-impl CommandInfo {
-    const fn session(mut self, command: SessionCommand) -> Self {
-        self.command = Command::Session(command);
-        self
-    }
-
-    const fn view(mut self, command: ViewCommand) -> Self {
-        self.command = Command::View(command);
-        self
-    }
-
-    const fn window(mut self, command: WindowCommand) -> Self {
-        self.command = Command::Window(command);
-        self
-    }
-
-    const fn icon(mut self, icon: char) -> Self {
-        self.icon = Some(icon);
-        self
-    }
-
-    const fn keys(mut self, shortcuts: &'static [Shortcut]) -> Self {
-        self.shortcuts = shortcuts;
-        self
-    }
-
-    const fn when(mut self, enabled: fn(&Session) -> Result<(), &'static str>) -> Self {
-        self.enabled = enabled;
-        self
-    }
 }

@@ -58,6 +58,25 @@ pub enum SessionCommand {
     FinishStep,
     Faster,
     Slower,
+    Travel(TravelCommand),
+}
+
+/// Moving through what is recorded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TravelCommand {
+    PlayBack,
+    /// Of the selected body, or between two selected ones.
+    NextEventOfSelection,
+    EventBackOfSelection,
+    RunToRest,
+    /// To the ends of what is recorded.
+    GoToBegin,
+    GoToEnd,
+    AddBookmark,
+    NextBookmark,
+    LastBookmark,
+    /// What an edit in the past has replaced is the future again.
+    BringBack,
 }
 
 /// New bodies and forces.
@@ -181,6 +200,7 @@ pub enum Key {
     Delete,
     Escape,
     End,
+    Home,
     Function(u8),
 }
 
@@ -235,6 +255,7 @@ impl fmt::Display for Shortcut {
             Key::Delete => f.write_str("Delete"),
             Key::Escape => f.write_str("Esc"),
             Key::End => f.write_str("End"),
+            Key::Home => f.write_str("Home"),
             Key::Function(n) => write!(f, "F{n}"),
         }
     }

@@ -1,7 +1,7 @@
 //! What the table of commands holds for each: names, keys, help, and when it can be used.
 
 use super::Session;
-use super::command::{Command, Menu, SessionCommand, Shortcut};
+use super::command::{Command, Menu, SessionCommand, Shortcut, ViewCommand, WindowCommand};
 
 /// One row of [`super::COMMANDS`].
 #[derive(Clone, Copy)]
@@ -44,5 +44,58 @@ impl CommandInfo {
             text.push_str(&format!("\nNot now: {reason}."));
         }
         text
+    }
+}
+
+/// A row without keys, that is never disabled; the methods below add the rest.
+pub(super) const fn row(
+    menu: Menu,
+    group: u8,
+    id: &'static str,
+    label: &'static str,
+    help: &'static str,
+) -> CommandInfo {
+    CommandInfo {
+        command: Command::Window(WindowCommand::About),
+        id,
+        label,
+        menu,
+        group,
+        shortcuts: &[],
+        icon: None,
+        help,
+        enabled: |_| Ok(()),
+    }
+}
+
+impl CommandInfo {
+    pub(super) const fn session(mut self, command: SessionCommand) -> Self {
+        self.command = Command::Session(command);
+        self
+    }
+
+    pub(super) const fn view(mut self, command: ViewCommand) -> Self {
+        self.command = Command::View(command);
+        self
+    }
+
+    pub(super) const fn window(mut self, command: WindowCommand) -> Self {
+        self.command = Command::Window(command);
+        self
+    }
+
+    pub(super) const fn icon(mut self, icon: char) -> Self {
+        self.icon = Some(icon);
+        self
+    }
+
+    pub(super) const fn keys(mut self, shortcuts: &'static [Shortcut]) -> Self {
+        self.shortcuts = shortcuts;
+        self
+    }
+
+    pub(super) const fn when(mut self, enabled: fn(&Session) -> Result<(), &'static str>) -> Self {
+        self.enabled = enabled;
+        self
     }
 }

@@ -1,7 +1,7 @@
 //! Carrying out actions and commands: which line of the table calls what.
 
 use super::{Action, Command, Intent, Notice, Outcome, Request, Session, SessionCommand, info};
-use crate::record::{RunCommand, RunState};
+use crate::record::{Of, RunCommand, RunState};
 
 /// How many Δt the five-step commands take.
 const MANY_STEPS: u32 = 5;
@@ -28,6 +28,13 @@ impl Session {
             Action::SelectPlace(place) => self.selection.set_place(place),
             Action::ShowEvent(event) => self.run.shown_event = event,
             Action::GoToEvent(seq) => self.go_to_event(seq),
+            Action::Seek(time) => return self.seek(time),
+            Action::RunUntil(goal) => self.run_until(goal),
+            Action::SetRange(range) => return self.set_range(range),
+            Action::GoToBookmark(index) => self.go_to_bookmark(index),
+            Action::RenameBookmark(index, name) => self.rename_bookmark(index, &name),
+            Action::RemoveBookmark(index) => self.remove_bookmark(index),
+            Action::SetMemory(bytes) => self.set_memory(bytes),
             Action::SetDt(text) => return self.set_dt(&text),
             Action::SetSpeed(speed) => self.set_speed(speed),
             Action::SetMethod(method) => self.set_method(method),
@@ -91,18 +98,19 @@ impl Session {
 
             SessionCommand::Reset => self.reset(),
             SessionCommand::PlayPause if self.is_busy() => self.run.pause(),
-            SessionCommand::PlayPause => self.play(),
+            SessionCommand::PlayPause => self.play_forward(),
             SessionCommand::StepForward => self.step(1),
             SessionCommand::StepForwardFive => self.step(MANY_STEPS),
             SessionCommand::StepBack => self.go_back(RunCommand::StepBack),
             SessionCommand::StepBackFive => {
                 (0..MANY_STEPS).for_each(|_| self.go_back(RunCommand::StepBack));
             }
-            SessionCommand::NextEvent => self.go_on(RunCommand::NextEvent { dt: self.run.playback.dt() }),
-            SessionCommand::EventBack => self.go_back(RunCommand::EventBack),
+            SessionCommand::NextEvent => self.next_event(Of::All),
+            SessionCommand::EventBack => self.go_back(RunCommand::EventBack { of: Of::All }),
             SessionCommand::FinishStep => self.go_on(RunCommand::FinishStep),
             SessionCommand::Faster => self.set_speed(self.run.playback.speed() * 2.0),
             SessionCommand::Slower => self.set_speed(self.run.playback.speed() / 2.0),
+            SessionCommand::Travel(command) => return self.travel_by(command),
         }
         Outcome::Done
     }
@@ -112,18 +120,9 @@ impl Session {
         matches!(self.run.frame.state, RunState::Playing | RunState::Busy)
     }
 
-    fn play(&mut self) {
-        self.settle();
-        self.run.play(self.time_speed());
-    }
-
     /// Lets a change of Δt or speed take hold while playing.
     fn play_on(&mut self) {
-        self.run.play_on(self.time_speed());
-    }
-
-    fn time_speed(&self) -> f64 {
-        self.scene().map_or(1.0, |scene| scene.time_speed)
+        self.run.play_on(self.way());
     }
 
     fn step(&mut self, count: u32) {
@@ -138,6 +137,13 @@ impl Session {
         self.store_settings();
         self.play_on();
         Outcome::Done
+    }
+
+    /// Bytes that the recording may take.
+    fn set_memory(&mut self, bytes: usize) {
+        self.kept.settings.recording_bytes = Some(bytes);
+        self.store_settings();
+        self.run.set_memory(bytes);
     }
 
     fn set_speed(&mut self, speed: f64) {
@@ -166,21 +172,12 @@ impl Session {
         if self.run.frame.open_step.is_some() { Ok(()) } else { Err("no Δt is open; Next event opens one") }
     }
 
-    /// Shows an event that is listed, or goes back to it.
-    fn go_to_event(&mut self, seq: u64) {
-        if self.run.frame.event(seq).is_none() {
-            self.go_back(RunCommand::GoTo { event: seq });
-        }
-        self.run.awaited_event = Some(seq);
-        self.show_awaited_event();
-    }
-
-    pub(super) fn show_awaited_event(&mut self) {
-        let Some(seq) = self.run.awaited_event else { return };
+    /// Shows a recorded event: goes to it, and selects whom it is about.
+    pub(super) fn go_to_event(&mut self, seq: u64) {
         let Some(row) = self.run.frame.event(seq).cloned() else { return };
+        self.go_back(RunCommand::GoTo { event: seq });
         let keys: Vec<_> = [Some(row.a_key), row.b_key].into_iter().flatten().collect();
         self.selection.set(&keys);
         self.run.shown_event = Some(row);
-        self.run.awaited_event = None;
     }
 }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::dialogue::{Answer, Intent, Question, Request};
 use super::disk::{DiskStamp, has_changed};
 use super::open_document::OpenFile;
+use super::travel::Travel;
 use super::{Notice, Outcome, Recovered, SAMPLES, Session};
 use crate::scene::{Document, shown_path};
 
@@ -131,6 +132,7 @@ impl Session {
         }
         self.doc.replace(document, file, saved);
         self.selection.clear();
+        self.travel = Travel::default();
         self.run.shown_event = None;
         self.talk.after_save = None;
         self.sync();

@@ -21,6 +21,7 @@ mod history;
 mod kept;
 mod label;
 mod live;
+mod moving;
 mod notice;
 mod open_document;
 mod palette;
@@ -38,12 +39,14 @@ mod settings;
 mod start;
 mod sync;
 mod talk;
+mod travel;
 mod trouble_list;
 
 pub use action::Action;
 pub use catalog::{COMMANDS, info};
 pub use command::{
-    Addition, Command, Key, Menu, Outcome, SessionCommand, Shortcut, ViewCommand, WindowCommand,
+    Addition, Command, Key, Menu, Outcome, SessionCommand, Shortcut, TravelCommand, ViewCommand,
+    WindowCommand,
 };
 pub use command_info::CommandInfo;
 pub use dialogue::{Answer, Intent, Question, Request};
@@ -62,3 +65,4 @@ pub use samples::{SAMPLES, Sample, SampleGroup};
 pub use selection::{Place, Selection};
 pub use session::Session;
 pub use settings::{EditorSettings, Storage};
+pub use travel::{Bookmark, Travel};

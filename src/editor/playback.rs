@@ -17,11 +17,11 @@ pub struct Playback {
     dt_text: String,
     speed: f64,
     method: Method,
-    /// Set by every command that moves the time, cleared by those that go to the start: a frame alone
-    /// cannot tell, it may be older than the last command.
-    moved: bool,
-    /// Frame revision at which a command backwards was sent, the last one to move the time.
-    back_since: Option<u64>,
+    /// Number of the last command that moved the time, and whether it leads to the start: a frame that does not know of it
+    /// cannot tell.
+    last: (u64, bool),
+    /// What the newest frame said of that.
+    is_at_start: bool,
 }
 
 impl Default for Playback {
@@ -31,8 +31,8 @@ impl Default for Playback {
             dt_text: "1/60".to_owned(),
             speed: 1.0,
             method: Method::Exact,
-            moved: false,
-            back_since: None,
+            last: (0, true),
+            is_at_start: true,
         }
     }
 }
@@ -80,29 +80,23 @@ impl Playback {
 
     /// Whether the simulation stands at its start, so that loading an edited scene loses nothing.
     pub fn is_at_start(&self) -> bool {
-        !self.moved
+        self.is_at_start
     }
 
-    pub(super) fn went_on(&mut self) {
-        self.moved = true;
-        self.back_since = None;
+    /// Notes a command that moves the time; `to_start` where it leads to the start, whatever comes of it.
+    pub(super) fn sent(&mut self, command: u64, to_start: bool) {
+        self.last = (command, to_start);
+        self.is_at_start = to_start;
     }
 
-    pub(super) fn went_back(&mut self, frame: &Frame) {
-        self.back_since = Some(frame.revision);
-    }
-
-    pub(super) fn went_to_start(&mut self) {
-        self.moved = false;
-        self.back_since = None;
-    }
-
-    /// Looks whether a command backwards has arrived at the start.
+    /// Takes from a frame that knows of the last command where that has led to.
     pub(super) fn look_at(&mut self, frame: &Frame) {
-        let Some(since) = self.back_since else { return };
-        let stands_at_zero = frame.dt_index == 0 && frame.open_step.is_none() && frame.event_count == 0;
-        if frame.revision > since && frame.state == RunState::Paused && stands_at_zero {
-            self.went_to_start();
+        let (command, to_start) = self.last;
+        if frame.command < command {
+            self.is_at_start = to_start;
+        } else if frame.state != RunState::Empty {
+            let stands = matches!(frame.state, RunState::Paused | RunState::Faulted);
+            self.is_at_start = stands && frame.is_at_start();
         }
     }
 }

@@ -5,8 +5,9 @@ use std::time::{Duration, Instant};
 
 use super::live::{Waiting, live_change, waits};
 use super::talk::Talk;
+use super::travel::Way;
 use super::{Notice, Playback};
-use crate::record::{EventRow, Frame, RunCommand, RunState, Runner};
+use crate::record::{EventRow, Frame, PathSpan, RunCommand, RunState, Runner};
 use crate::scene::{Diagnostic, Document, Scene, Touched};
 use crate::sim::Method;
 
@@ -16,11 +17,13 @@ const SETTLE_TIME: Duration = Duration::from_millis(150);
 
 pub(super) struct Run {
     runner: Box<dyn Runner>,
+    /// Number of the last command sent.
+    sent: u64,
+    /// What ways the runner was asked for.
+    paths: Option<PathSpan>,
     pub frame: Arc<Frame>,
     pub playback: Playback,
     pub shown_event: Option<Arc<EventRow>>,
-    /// Number of an event to show as soon as a frame lists it.
-    pub awaited_event: Option<u64>,
     /// The scene that the runner runs; `None` when it has none.
     pub running: Option<Running>,
     /// What edits touched that have not reached the runner yet.
@@ -43,14 +46,30 @@ impl Run {
         Self {
             frame: runner.frame(),
             runner,
+            sent: 0,
+            paths: None,
             playback,
             shown_event: None,
-            awaited_event: None,
             running: None,
             pending: Touched::default(),
             settling: None,
             last_poll: None,
         }
+    }
+
+    fn send(&mut self, command: RunCommand) -> u64 {
+        self.sent = self.runner.send(command);
+        self.sent
+    }
+
+    /// Whether the newest frame does not show yet all that the simulation was told.
+    pub fn is_behind(&self) -> bool {
+        let is_at_work = match self.frame.state {
+            RunState::Busy => true,
+            RunState::Paused => !self.frame.is_settled,
+            RunState::Empty | RunState::Playing | RunState::Faulted => false,
+        };
+        self.frame.command < self.sent || is_at_work
     }
 
     /// Takes the newest frame.
@@ -105,7 +124,7 @@ impl Run {
 
     /// Brings the runner in line with the document, as far as a running simulation can be changed. All
     /// pending edits go as one batch.
-    pub fn sync(&mut self, document: &Document, talk: &mut Talk) {
+    pub fn sync(&mut self, document: &Document, way: Way, talk: &mut Talk) {
         let touched = std::mem::take(&mut self.pending);
         self.settling = None;
         let wanted = if document.has_errors() { None } else { document.scene_shared() };
@@ -133,32 +152,31 @@ impl Run {
                 running.waiting = change.waiting;
                 running.scene = change.scene;
                 if !change.edits.is_empty() {
-                    self.runner.send(RunCommand::Edit(change.edits));
+                    self.send(RunCommand::Edit(change.edits));
                 }
                 if speed_changed {
-                    self.play_on(scene.time_speed);
+                    self.play_on(way);
                 }
             }
         }
     }
 
     fn load(&mut self, scene: Arc<Scene>) {
-        self.runner.send(RunCommand::Load(scene.clone()));
+        let command = self.send(RunCommand::Load(scene.clone()));
         self.running = Some(Running { scene, edited: false, waiting: Waiting::default() });
-        self.playback.went_to_start();
+        self.playback.sent(command, true);
         self.shown_event = None;
     }
 
     fn unload(&mut self) {
-        self.runner.send(RunCommand::Unload);
+        let command = self.send(RunCommand::Unload);
         self.running = None;
-        self.playback.went_to_start();
+        self.playback.sent(command, true);
         self.shown_event = None;
     }
 
     /// Forgets the run, so that the next sync loads whatever the document is.
     pub fn forget(&mut self) {
-        self.playback.went_to_start();
         self.pending = Touched::default();
         if self.running.is_some() {
             self.unload();
@@ -175,15 +193,15 @@ impl Run {
                 self.load(scene);
             }
         } else {
-            self.runner.send(RunCommand::Reset);
-            self.playback.went_to_start();
+            let command = self.send(RunCommand::Reset);
+            self.playback.sent(command, true);
         }
     }
 
     /// Steps by another method from now on. The caller goes to the start.
     pub fn set_method(&mut self, method: Method) {
         self.playback.set_method(method);
-        self.runner.send(RunCommand::Method(method));
+        self.send(RunCommand::Method(method));
     }
 
     /// Sends a command that moves the time forwards.
@@ -191,28 +209,28 @@ impl Run {
         if !matches!(command, RunCommand::Play { .. }) {
             self.stop_playing();
         }
-        (self.shown_event, self.awaited_event) = (None, None);
-        self.runner.send(command);
-        self.playback.went_on();
+        self.shown_event = None;
+        let command = self.send(command);
+        self.playback.sent(command, false);
     }
 
     pub fn go_back(&mut self, command: RunCommand) {
         self.stop_playing();
-        (self.shown_event, self.awaited_event) = (None, None);
-        self.runner.send(command);
-        self.playback.went_back(&self.frame);
+        self.shown_event = None;
+        let command = self.send(command);
+        self.playback.sent(command, false);
     }
 
-    /// Plays; a scene may ask for another `time_speed` than that of the clock.
-    pub fn play(&mut self, time_speed: f64) {
-        let speed = self.playback.speed() * time_speed;
-        self.go_on(RunCommand::Play { dt: self.playback.dt(), speed });
+    /// Plays at the speed that is set.
+    pub fn play(&mut self, way: Way) {
+        let speed = self.playback.speed() * way.speed;
+        self.go_on(RunCommand::Play { dt: self.playback.dt(), speed, range: way.range });
     }
 
     /// Lets a change of Δt or speed take hold while playing.
-    pub fn play_on(&mut self, time_speed: f64) {
+    pub fn play_on(&mut self, way: Way) {
         if self.frame.state == RunState::Playing {
-            self.play(time_speed);
+            self.play(way);
         }
     }
 
@@ -223,7 +241,19 @@ impl Run {
         }
     }
 
+    /// How much of the bodies' ways the frames have.
+    pub fn show_paths(&mut self, span: Option<PathSpan>) {
+        if self.paths != span {
+            self.paths = span;
+            self.send(RunCommand::Paths(span));
+        }
+    }
+
+    pub fn set_memory(&mut self, bytes: usize) {
+        self.send(RunCommand::Budget(bytes));
+    }
+
     pub fn pause(&mut self) {
-        self.runner.send(RunCommand::Pause);
+        self.send(RunCommand::Pause);
     }
 }

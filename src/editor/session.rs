@@ -9,6 +9,7 @@ use super::live::differs;
 use super::open_document::OpenDocument;
 use super::run::Run;
 use super::talk::Talk;
+use super::travel::Travel;
 use super::{EditorSettings, Gesture, Notice, Playback, Selection};
 use crate::record::{EventRow, Frame};
 use crate::scene::{Document, NodeKey, Scene};
@@ -17,6 +18,7 @@ use crate::scene::{Document, NodeKey, Scene};
 pub struct Session {
     pub(super) doc: OpenDocument,
     pub(super) run: Run,
+    pub(super) travel: Travel,
     pub(super) selection: Selection,
     pub(super) talk: Talk,
     pub(super) kept: Kept,
@@ -117,6 +119,11 @@ impl Session {
     /// a body must show at once. Elsewhere they are where the frame says.
     pub fn shows_start(&self) -> bool {
         self.run.playback.is_at_start()
+    }
+
+    /// Whether the newest frame does not show yet all that the simulation was told.
+    pub fn awaits_simulation(&self) -> bool {
+        self.run.is_behind()
     }
 
     /// Whether the running simulation knows a body or force; those added later wait for a reset.

@@ -52,6 +52,8 @@ pub struct EditorSettings {
     pub recent: Vec<PathBuf>,
     /// Δt as typed last.
     pub dt: Option<String>,
+    /// Bytes that the recording of a run may take.
+    pub recording_bytes: Option<usize>,
 }
 
 impl EditorSettings {

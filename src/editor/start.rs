@@ -4,6 +4,7 @@ use super::kept::Kept;
 use super::open_document::{OpenDocument, OpenFile};
 use super::run::Run;
 use super::talk::Talk;
+use super::travel::Travel;
 use super::{Playback, Selection, Session, Storage};
 use crate::record::Runner;
 use crate::scene::{Document, NumberStyle};
@@ -28,9 +29,13 @@ impl Session {
             doc: OpenDocument::new(document, OpenFile::untitled("Untitled"), true),
             run: Run::new(runner, playback),
             selection: Selection::default(),
+            travel: Travel::default(),
             talk: Talk::default(),
             kept,
         };
+        if let Some(bytes) = session.kept.settings.recording_bytes {
+            session.run.set_memory(bytes);
+        }
         session.offer_recovery();
         session.sync();
         session

@@ -12,7 +12,6 @@ impl Session {
     /// recovery file up to date.
     pub fn poll(&mut self, now: Instant) {
         self.run.look(now, &mut self.talk);
-        self.show_awaited_event();
         if self.run.has_settled(self.doc.history.state(), now) {
             self.sync();
         }
@@ -31,7 +30,8 @@ impl Session {
     }
 
     pub(super) fn sync(&mut self) {
-        self.run.sync(self.doc.history.document(), &mut self.talk);
+        let way = self.way();
+        self.run.sync(self.doc.history.document(), way, &mut self.talk);
     }
 
     /// Ends an open gesture and lets the runner know what it did.

@@ -13,13 +13,15 @@ use super::dialogs::{Dialogs, FileDialogs, HelpPage};
 use super::dock::{self, Dock, Panel};
 use super::inspector::Inspector;
 use super::launch::Script;
+use super::ledger::LedgerPanel;
 use super::problems::Problems;
 use super::status::Pace;
+use super::timeline::{self, Timeline};
 use super::toasts::Toasts;
 use super::transport::Transport;
 use super::tree::Tree;
 use super::viewport::{self, Canvas, Views};
-use super::{menu, shortcuts, start, status, strip, theme};
+use super::{menu, shortcuts, start, status, theme};
 use crate::design::TOOLS;
 use crate::editor::{
     Action, Command, Notice, Outcome, Request, Session, SessionCommand, Storage, WindowCommand,
@@ -47,6 +49,8 @@ pub struct App {
     tree: Tree,
     inspector: Inspector,
     transport: Transport,
+    timeline: Timeline,
+    ledger: LedgerPanel,
     pub(super) problems: Problems,
     pub(super) accuracy: Accuracy,
     dialogs: Dialogs,
@@ -104,6 +108,8 @@ impl App {
             tree: Tree::default(),
             inspector: Inspector::default(),
             transport: Transport::default(),
+            timeline: Timeline::default(),
+            ledger: LedgerPanel::default(),
             problems: Problems::default(),
             accuracy: Accuracy::default(),
             dialogs: Dialogs::new(parts.files),
@@ -141,7 +147,7 @@ impl App {
         }
         self.session.poll(Instant::now());
         self.look_at_scene();
-        self.views.look_at(self.session.frame());
+        self.session.show_paths(self.views.wanted_paths());
         let blocked = self.session.question().is_some()
             || self.dialogs.are_open()
             || egui::Popup::is_any_open(ctx)
@@ -186,6 +192,7 @@ impl App {
             self.start_closed = true;
             self.views.opened();
             self.tree.opened();
+            self.timeline.opened();
         }
     }
 
@@ -219,8 +226,8 @@ impl App {
         egui::Panel::bottom("status").frame(menu_bar).exact_size(24.0).show(ui, |ui| {
             status::show(ui, &context, &self.pace);
         });
-        egui::Panel::bottom("strip").frame(flush).exact_size(strip::HEIGHT).show(ui, |ui| {
-            strip::show(ui, &context);
+        egui::Panel::bottom("timeline").frame(flush).exact_size(timeline::HEIGHT).show(ui, |ui| {
+            self.timeline.show(ui, &context);
         });
         let shown_views: [bool; 4] = std::array::from_fn(|index| self.views.is_shown(index));
         // a part is seen in its place before it is made
@@ -230,6 +237,7 @@ impl App {
             preview: &preview,
             tree: &mut self.tree,
             inspector: &mut self.inspector,
+            ledger: &mut self.ledger,
             problems: &mut self.problems,
             accuracy: &mut self.accuracy,
             views: &mut self.views,
@@ -405,6 +413,7 @@ struct Contents<'a> {
     preview: &'a AppContext<'a>,
     tree: &'a mut Tree,
     inspector: &'a mut Inspector,
+    ledger: &'a mut LedgerPanel,
     problems: &'a mut Problems,
     accuracy: &'a mut Accuracy,
     views: &'a mut Views,
@@ -417,7 +426,7 @@ impl dock::Contents for Contents<'_> {
         match panel {
             Panel::Tree => "Scene".to_owned(),
             Panel::Inspector => "Inspector".to_owned(),
-            Panel::Events => format!("Events of this Δt ({})", self.context.session.frame().events.len()),
+            Panel::Events => LedgerPanel::title(self.context),
             Panel::Problems => self.problems.title(),
             Panel::Accuracy if self.accuracy.is_running() => "Accuracy (running)".to_owned(),
             Panel::Accuracy => "Accuracy".to_owned(),
@@ -435,7 +444,7 @@ impl dock::Contents for Contents<'_> {
         match panel {
             Panel::Tree => self.tree.show(ui, self.context),
             Panel::Inspector => self.inspector.show(ui, self.context),
-            Panel::Events => framed(ui, &mut |ui| super::events::show(ui, self.context)),
+            Panel::Events => framed(ui, &mut |ui| self.ledger.show(ui, self.context)),
             Panel::Problems => framed(ui, &mut |ui| self.problems.show(ui, self.context)),
             Panel::Accuracy => framed(ui, &mut |ui| self.accuracy.show(ui, self.context)),
             Panel::View(index) => {
@@ -451,11 +460,11 @@ impl dock::Contents for Contents<'_> {
         if panel == Panel::Problems {
             self.problems.show_beside_tab(ui, self.context);
         }
-        let frame = self.context.session.frame();
-        if panel == Panel::Events && !frame.events.is_empty() {
-            let copy = ui.small_button("Copy").on_hover_text("All rows as text with tabs, for a spreadsheet");
+        if panel == Panel::Events && !self.context.session.frame().ledger.is_empty() {
+            let copy =
+                ui.small_button("Copy").on_hover_text("The rows listed as text with tabs, for a spreadsheet");
             if copy.clicked() {
-                ui.ctx().copy_text(super::events::as_text(frame));
+                ui.ctx().copy_text(self.ledger.as_text(self.context));
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 
-use crate::editor::{Addition, Command, SessionCommand, ViewCommand};
+use crate::editor::{Addition, Command, SessionCommand, TravelCommand, ViewCommand};
 use crate::view::Tool;
 
 /// Draws a command's icon into a square; `false` if it has none.
@@ -22,6 +22,7 @@ pub fn paint(painter: &Painter, square: Rect, command: Command, color: Color32) 
             pen.dot(0.82);
         }
         Command::Session(SessionCommand::PlayPause) => pen.triangle(0.22, 0.86),
+        Command::Session(SessionCommand::Travel(TravelCommand::PlayBack)) => pen.triangle(0.78, 0.14),
         Command::Session(SessionCommand::StepForward) => {
             pen.bar(0.2);
             pen.triangle(0.28, 0.78);

@@ -15,7 +15,7 @@ use super::error::GuiError;
 use super::steps::{Step, counted_step};
 use crate::design::TOOLS;
 use crate::editor::{Action, Outcome, Storage};
-use crate::record::{RunState, ThreadRunner, Unanswered};
+use crate::record::ThreadRunner;
 use crate::render::{png, write_png};
 use crate::scene::{Force, check_writable, same_file, shown_path};
 
@@ -76,7 +76,7 @@ impl fmt::Display for Report {
 pub fn run(options: Options) -> Result<Report, GuiError> {
     let called = Instant::now();
     let report = Arc::new(Mutex::new(Report::default()));
-    let mut script = Script::new(&options, called, report.clone())?;
+    let script = Script::new(&options, called, report.clone())?;
     check_screenshot(&options)?;
     let scripted = options.screenshot.is_some() || options.bench_orbit.is_some();
     let size = options.window_size.unwrap_or([1360, 860]).map(|side| side as f32);
@@ -103,7 +103,6 @@ pub fn run(options: Options) -> Result<Report, GuiError> {
             ctx.send_viewport_cmd(ViewportCommand::InnerSize(size.map(|side| side as f32).into()));
         }
         let runner = ThreadRunner::new(move || ctx.request_repaint())?;
-        script.unanswered = runner.unanswered();
         let storage = if scripted { Storage::default() } else { Storage::of_user() };
         let files = Box::new(NativeFileDialogs::default());
         let mut app = App::new(cc, Parts { runner: Box::new(runner), storage, files, scene });
@@ -141,8 +140,6 @@ pub(super) struct Script {
     called: Instant,
     /// The scene that was asked for.
     scene: Option<PathBuf>,
-    /// Commands that the simulation has not taken up yet.
-    unanswered: Unanswered,
     /// Whether it had taken all up in the turn before: the window shows it now.
     answered: bool,
     /// Each with its text.
@@ -184,7 +181,6 @@ impl Script {
         Ok(Self {
             called,
             scene: options.scene.clone(),
-            unanswered: Unanswered::default(),
             answered: false,
             steps,
             screenshot: options.screenshot.clone(),
@@ -194,9 +190,10 @@ impl Script {
         })
     }
 
-    /// Whether the window does not show yet what the simulation made of all that it was told.
-    fn waits_for_simulation(&mut self) -> bool {
-        let answered = std::mem::replace(&mut self.answered, self.unanswered.is_none());
+    /// Whether the window does not show yet what the simulation made of all that it was told; `answered`: whether it
+    /// has made it.
+    fn waits_for_simulation(&mut self, answered: bool) -> bool {
+        let answered = std::mem::replace(&mut self.answered, answered);
         !(answered && self.answered)
     }
 
@@ -223,9 +220,8 @@ impl App {
         if script.steps.is_empty() && script.screenshot.is_none() && script.bench.is_none() {
             return false;
         }
-        let busy = script.waits_for_simulation()
-            || self.session().frame().state == RunState::Busy
-            || self.accuracy.is_running();
+        let answered = !self.session().awaits_simulation();
+        let busy = script.waits_for_simulation(answered) || self.accuracy.is_running();
         if busy || script.wait_until.is_some_and(|until| Instant::now() < until) {
             ctx.request_repaint_after(Duration::from_millis(10));
             return true;

@@ -3,7 +3,7 @@
 use egui::{Event, Modifiers};
 
 use super::context::Outbox;
-use crate::editor::{Action, COMMANDS, Command, Key, SessionCommand, Shortcut};
+use crate::editor::{Action, COMMANDS, Command, Key, SessionCommand, Shortcut, TravelCommand};
 
 /// Sends the commands whose keys were pressed in this turn.
 ///
@@ -49,6 +49,8 @@ fn repeats(command: Command) -> bool {
                 | SessionCommand::StepBack
                 | SessionCommand::NextEvent
                 | SessionCommand::EventBack
+                | SessionCommand::Travel(TravelCommand::NextEventOfSelection)
+                | SessionCommand::Travel(TravelCommand::EventBackOfSelection)
                 | SessionCommand::Undo
                 | SessionCommand::Redo
         )
@@ -81,11 +83,14 @@ fn egui_key(key: Key) -> Option<egui::Key> {
         Key::Char('+') => Some(egui::Key::Plus),
         Key::Char('-') => Some(egui::Key::Minus),
         Key::Char('?') => Some(egui::Key::Questionmark),
+        Key::Char('[') => Some(egui::Key::OpenBracket),
+        Key::Char(']') => Some(egui::Key::CloseBracket),
         Key::Char(c) => egui::Key::from_name(c.encode_utf8(&mut [0; 4])),
         Key::Space => Some(egui::Key::Space),
         Key::Delete => Some(egui::Key::Delete),
         Key::Escape => Some(egui::Key::Escape),
         Key::End => Some(egui::Key::End),
+        Key::Home => Some(egui::Key::Home),
         Key::Function(n) => egui::Key::from_name(&format!("F{n}")),
     }
 }

@@ -3,18 +3,19 @@
 use egui::{RichText, TextEdit, Ui};
 
 use super::colors::tones;
-use super::context::AppContext;
+use super::context::{AppContext, Message};
 use super::inspector::number::{Number, number, single};
 use super::viewport::Layout;
 use super::widgets::{command_button, icon_button, severity_icon};
 use super::{icons, lag, numbers};
-use crate::editor::{self, Action, Addition, SessionCommand, Shared, ViewCommand};
-use crate::record::RunState;
+use crate::editor::{self, Action, Addition, SessionCommand, Shared, TravelCommand, ViewCommand};
+use crate::record::{Goal, RunState};
 use crate::scene::Edit;
 use crate::sim::Method;
 
-const TRANSPORT: [SessionCommand; 7] = [
+const TRANSPORT: [SessionCommand; 8] = [
     SessionCommand::Reset,
+    SessionCommand::Travel(TravelCommand::PlayBack),
     SessionCommand::StepBack,
     SessionCommand::EventBack,
     SessionCommand::PlayPause,
@@ -46,16 +47,18 @@ const SPEEDS: [(f64, &str); 9] = [
 ];
 
 /// Room in which everything has its place, points.
-const WIDE: f32 = 1070.0;
+const WIDE: f32 = 1290.0;
 
 /// Below this, points, what the menus Edit and Add have too would lie over the speed and what is said beside it.
-const NARROW: f32 = 1000.0;
+const NARROW: f32 = 1220.0;
 
 /// Keeps what is being typed into Δt.
 #[derive(Default)]
 pub struct Transport {
     dt_text: String,
     typing: bool,
+    time_text: String,
+    typing_time: bool,
 }
 
 impl Transport {
@@ -68,6 +71,9 @@ impl Transport {
             for command in TRANSPORT {
                 command_button(ui, context, command);
             }
+            ui.add_space(6.0);
+            self.time_field(ui, context);
+            run_menu(ui, context);
             ui.add_space(6.0);
             self.dt_field(ui, context);
             ui.add_space(6.0);
@@ -94,6 +100,31 @@ impl Transport {
                 ui.separator();
             });
         });
+    }
+
+    /// The time shown; one that is typed is gone to.
+    fn time_field(&mut self, ui: &mut Ui, context: &AppContext<'_>) {
+        let frame = context.session.frame();
+        let help = "Time of the run in seconds. Type any and press Enter to be there: what is recorded is looked up, \
+                    beyond it the simulation runs on.";
+        let label = ui.label("t").on_hover_text(help);
+        if !self.typing_time {
+            self.time_text = format!("{:.6}", frame.time);
+        }
+        let edit =
+            TextEdit::singleline(&mut self.time_text).font(egui::TextStyle::Monospace).desired_width(78.0);
+        let response = ui.add(edit).labelled_by(label.id).on_hover_text(help);
+        ui.label(RichText::new("s").weak());
+        self.typing_time = response.has_focus();
+        if response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter)) {
+            match editor::parse_number(&self.time_text) {
+                Some(time) => context.outbox.act(Action::Seek(time)),
+                None => {
+                    let text = format!("“{}” is not a time: type seconds, such as 1.25", self.time_text);
+                    context.outbox.send(Message::Warn(text));
+                }
+            }
+        }
     }
 
     fn dt_field(&mut self, ui: &mut Ui, context: &AppContext<'_>) {
@@ -126,6 +157,29 @@ impl Transport {
             context.outbox.act(Action::SetDt(self.dt_text.clone()));
         }
     }
+}
+
+/// What running goes on until.
+fn run_menu(ui: &mut Ui, context: &AppContext<'_>) {
+    ui.menu_button("Run", |ui| {
+        for count in [10_u64, 100, 1000] {
+            if ui.button(format!("For {count} events")).clicked() {
+                context.outbox.act(Action::RunUntil(Goal::Events(count)));
+            }
+        }
+        if ui.button("Until all is at rest").clicked() {
+            context.outbox.command(SessionCommand::Travel(TravelCommand::RunToRest));
+        }
+        ui.separator();
+        let frame = context.session.frame();
+        for (more, text) in [(1.0, "1 s more"), (10.0, "10 s more"), (60.0, "1 min more")] {
+            if ui.button(text).clicked() {
+                context.outbox.act(Action::RunUntil(Goal::Time(frame.time + more)));
+            }
+        }
+    })
+    .response
+    .on_hover_text("Runs as fast as it can until a goal is reached; Space stops it");
 }
 
 /// How to step. Another method starts again, so the entries say so.

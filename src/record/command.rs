@@ -2,18 +2,21 @@
 
 use std::sync::Arc;
 
-use crate::scene::Scene;
+use super::ledger::EventRow;
+use super::paths::PathSpan;
+use crate::scene::{NodeKey, Scene};
 use crate::sim::{Method, SimEdit};
 
-/// Commands are carried out in the order sent, between events. All but `Load`, `Reset` and `Method` are
-/// refused (and ignored) while no simulation is loaded.
+/// Commands are carried out in the order sent, between events. All but `Load`, `Reset`, `Method`, `Budget` and `Paths` are
+/// refused (and ignored) while no simulation is loaded. What is recorded is gone through by looking it up; what is not, by
+/// simulating.
 #[derive(Clone, Debug)]
 pub enum RunCommand {
-    /// Compiles a scene and goes to its start. Forgets recorded edits.
+    /// Compiles a scene and goes to its start. Forgets the recording.
     Load(Arc<Scene>),
     /// Drops the simulation: the scene has errors.
     Unload,
-    /// Back to the start of the loaded scene.
+    /// Back to the start of the loaded scene. Forgets the recording.
     Reset,
     /// How to step from now on; another method than before goes back to the start of the loaded scene.
     Method(Method),
@@ -26,22 +29,76 @@ pub enum RunCommand {
     /// on through following Δt until there is an event.
     NextEvent {
         dt: f64,
+        of: Of,
     },
-    /// To the end of the Δt that `NextEvent` opened.
+    /// To the end of the open Δt.
     FinishStep,
-    /// Δt after Δt, at `speed` model seconds per wall second; slower when the machine cannot follow.
+    /// Δt after Δt until a goal is reached.
+    RunUntil {
+        dt: f64,
+        goal: Goal,
+    },
+    /// Δt after Δt, at `speed` model seconds per wall second; slower when the machine cannot follow. Backwards
+    /// where the speed is below zero, as far as is recorded.
     Play {
         dt: f64,
         speed: f64,
+        /// Again and again between two times, s.
+        range: Option<(f64, f64)>,
     },
     Pause,
     /// One Δt back, one event back.
     StepBack,
-    EventBack,
-    /// Back to the event of this number; the Δt around it is open then.
+    EventBack {
+        of: Of,
+    },
+    /// To the recorded event of this number; the Δt around it is open then.
     GoTo {
         event: u64,
     },
-    /// Changes the running scene now; several changes are one edit to go back over.
+    /// To a time, s: into the recording, or beyond it by Δt of this length.
+    Seek {
+        dt: f64,
+        time: f64,
+    },
+    /// Changes the scene at what is shown; several changes are one edit to go back over. What was recorded for later is
+    /// kept until the next edit.
     Edit(Vec<SimEdit>),
+    /// Takes the last edit in the past back, with all that came after it: what it replaced is the future again.
+    BringBack,
+    /// Bytes that the recording may take.
+    Budget(usize),
+    /// How much of the bodies' ways frames have; none by default.
+    Paths(Option<PathSpan>),
+}
+
+/// Which events are meant.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Of {
+    #[default]
+    All,
+    Body(NodeKey),
+    /// Between two bodies.
+    Pair(NodeKey, NodeKey),
+}
+
+/// When running ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Goal {
+    /// Model time, s.
+    Time(f64),
+    /// All bodies lie still.
+    Rest,
+    /// So many events from now.
+    Events(u64),
+}
+
+impl Of {
+    pub fn holds(self, row: &EventRow) -> bool {
+        match self {
+            Self::All => true,
+            Self::Body(key) => row.concerns(key),
+            Self::Pair(a, b) => row.concerns(a) && row.concerns(b),
+        }
+    }
 }

@@ -17,8 +17,9 @@ pub(super) struct Drift {
 }
 
 impl Drift {
-    pub(super) fn largest(&self) -> Option<Jump> {
-        self.records.last().copied()
+    /// The largest up to an event.
+    pub(super) fn largest(&self, event: u64) -> Option<Jump> {
+        self.records.iter().rev().find(|jump| jump.event <= event).copied()
     }
 
     pub(super) fn note(&mut self, simulation: &Simulation, event: &Event) {
@@ -34,8 +35,8 @@ impl Drift {
         }
     }
 
-    /// The simulation was put back to where it was after this event.
-    pub(super) fn rewind(&mut self, simulation: &Simulation, event: u64) {
+    /// Another future begins after this event, where the simulation is.
+    pub(super) fn drop_after(&mut self, event: u64, simulation: &Simulation) {
         self.records.retain(|jump| jump.event <= event);
         (self.residual, self.since) = (residual_of(simulation), 0);
     }

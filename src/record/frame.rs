@@ -4,8 +4,10 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::ledger::{EventRow, Ledger};
+use super::paths::{BodyPath, ImpactBody};
 use crate::scene::{Diagnostic, NodeKey};
-use crate::sim::{ContactState, Counters, Energy, Event, Method, Momentum, Plan, SteppedBodies, Tiling};
+use crate::sim::{ContactState, Counters, Energy, Method, Momentum, Plan, SteppedBodies, Tiling};
 
 /// What a runner is doing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -45,17 +47,19 @@ pub struct ContactFrame {
     pub force: f64,
 }
 
-/// One ledger row with the names a person knows.
-#[derive(Clone, Debug, PartialEq)]
-pub struct EventRow {
-    pub event: Event,
-    pub a_key: NodeKey,
-    pub b_key: Option<NodeKey>,
-    pub a_label: String,
-    /// Empty for events of one body alone.
-    pub b_label: String,
-    /// Number of the Δt (1 for the first) in which it happened.
-    pub dt_index: u64,
+/// What is kept of a run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Recorded {
+    /// From when to when, s. What was before the first was dropped to stay within the budget.
+    pub from: f64,
+    pub to: f64,
+    /// Bytes that it takes, and may take.
+    pub bytes: usize,
+    pub budget: usize,
+    /// Times of the edits, s.
+    pub edits: Vec<f64>,
+    /// Whether an edit in the past has replaced something that can be brought back.
+    pub can_bring_back: bool,
 }
 
 /// A change of the energy residual.
@@ -98,10 +102,14 @@ pub struct Busiest {
 }
 
 impl Frame {
-    /// The listed event of this number.
+    /// The recorded event of this number.
     pub fn event(&self, seq: u64) -> Option<&Arc<EventRow>> {
-        let place = self.events.binary_search_by_key(&seq, |row| row.event.seq).ok()?;
-        self.events.get(place)
+        self.ledger.get(seq)
+    }
+
+    /// Whether it stands at the start of the scene.
+    pub fn is_at_start(&self) -> bool {
+        self.dt_index == 0 && self.open_step.is_none() && self.event_count == 0
     }
 }
 
@@ -110,6 +118,11 @@ impl Frame {
 pub struct Frame {
     /// Grows with every frame published.
     pub revision: u64,
+    /// Number of the last command that it knows of; 0 before the first.
+    pub command: u64,
+    /// Whether the simulation stands at what is shown. Before, what was looked up is there: bodies and events; energy,
+    /// momentum and contacts follow.
+    pub is_settled: bool,
     pub state: RunState,
     /// How it steps.
     pub method: Method,
@@ -128,9 +141,16 @@ pub struct Frame {
     /// What presses on what among bodies that are stepped or came to rest so, and whether weaker contacts were left out.
     pub contacts: Vec<ContactFrame>,
     pub contacts_truncated: bool,
-    /// Events of the last (or open) Δt, oldest first, and whether older ones were left out.
+    /// Events of the last (or open) Δt up to the time shown, oldest first, and whether older ones were left out.
     pub events: Vec<Arc<EventRow>>,
     pub events_truncated: bool,
+    /// All events that are recorded, also those after the time shown.
+    pub ledger: Ledger,
+    pub recorded: Arc<Recorded>,
+    /// The bodies of the event that is right now, if one is.
+    pub at_impact: Arc<Vec<ImpactBody>>,
+    /// Ways of the bodies, if they are asked for.
+    pub paths: Arc<Vec<BodyPath>>,
     /// Events since the start.
     pub event_count: u64,
     pub energy: Option<Energy>,

@@ -11,6 +11,8 @@ use super::{Exceeded, Frame, Limits, RunCommand, RunState, Runner, Watch};
 pub struct InlineRunner {
     recorder: RunRecorder,
     frame: Arc<Frame>,
+    /// Number of the last command.
+    command: u64,
     watch: Option<Watch>,
     exceeded: Option<Exceeded>,
 }
@@ -35,7 +37,7 @@ impl InlineRunner {
             // One event, or a bounded amount of work, between two looks.
             Some(watch) => {
                 while self.recorder.work(1) {
-                    let events = self.recorder.run.as_ref().map_or(0, |run| run.last_event);
+                    let events = self.recorder.run.as_ref().map_or(0, |run| run.at.event);
                     self.exceeded = watch.exceeded(events);
                     if self.exceeded.is_some() {
                         self.recorder.command(RunCommand::Pause);
@@ -45,14 +47,17 @@ impl InlineRunner {
             }
             None => while self.recorder.work(u32::MAX) {},
         }
-        self.frame = Arc::new(frame_of(&mut self.recorder, self.frame.revision + 1, Pace::default()));
+        self.frame =
+            Arc::new(frame_of(&mut self.recorder, self.frame.revision + 1, self.command, Pace::default()));
     }
 }
 
 impl Runner for InlineRunner {
-    fn send(&mut self, command: RunCommand) {
+    fn send(&mut self, command: RunCommand) -> u64 {
         self.recorder.command(command);
+        self.command += 1;
         self.settle();
+        self.command
     }
 
     fn frame(&self) -> Arc<Frame> {

@@ -21,6 +21,9 @@ const EVALUATION_S: f64 = 250e-9;
 const PAIR_S: f64 = 100e-9;
 const EVENT_S: f64 = 10e-6;
 
+/// The last events, among which the busiest bodies are looked for.
+const LOOKED_AT: usize = 2000;
+
 /// What was measured between two looks.
 pub(super) struct Measured {
     pub(super) before: Counters,
@@ -67,9 +70,11 @@ fn most_accelerated(run: &Run) -> Option<NodeKey> {
 
 fn busiest(run: &Run) -> Option<Busiest> {
     let mut counts: FxHashMap<(NodeKey, Option<NodeKey>), u32> = FxHashMap::default();
-    for row in &run.rows.list {
+    let rows = &run.recording.ledger;
+    let listed = rows.len().min(LOOKED_AT);
+    for row in rows.iter_from(rows.len() - listed) {
         *counts.entry((row.a_key, row.b_key)).or_default() += 1;
     }
     let most = counts.into_iter().max_by_key(|(bodies, count)| (*count, Reverse(*bodies)));
-    most.map(|((a, b), count)| Busiest { a, b, share: f64::from(count) / run.rows.list.len() as f64 })
+    most.map(|((a, b), count)| Busiest { a, b, share: f64::from(count) / listed as f64 })
 }

@@ -4,29 +4,43 @@ mod command;
 mod drift;
 mod frame;
 mod grid;
-mod history;
 mod inline;
+mod keyframes;
 mod lag;
+mod ledger;
 mod limits;
+mod moment;
+mod moving;
+mod paths;
 mod publish;
 mod recorder;
-mod replay;
+mod recording;
 mod run;
+mod settle;
+#[cfg(test)]
+mod settle_tests;
+mod task;
 mod thread;
+mod ticks;
+mod track;
 
 use std::sync::Arc;
 
-pub use command::RunCommand;
-pub use frame::{BodyFrame, Busiest, ContactFrame, EventRow, Frame, Jump, Lag, LagCause, RunState};
+pub use command::{Goal, Of, RunCommand};
+pub use frame::{BodyFrame, Busiest, ContactFrame, Frame, Jump, Lag, LagCause, Recorded, RunState};
 pub use inline::InlineRunner;
+pub use ledger::{EventRow, Ledger};
 pub use limits::{Exceeded, Limits, Watch, advance};
-pub use thread::{ThreadRunner, Unanswered};
+pub use moment::Moment;
+pub use paths::{BodyPath, ImpactBody, PathSpan};
+pub use thread::ThreadRunner;
 
 /// Something that runs a simulation on command. The application uses a thread, so that no scene can
 /// freeze the window; tests run inline, so that nothing sleeps.
 pub trait Runner {
-    /// Hands over a command. Commands are carried out in the order sent.
-    fn send(&mut self, command: RunCommand);
+    /// Hands over a command; gives its number, which a frame that knows of it has too. Commands are carried out in the
+    /// order sent.
+    fn send(&mut self, command: RunCommand) -> u64;
 
     /// The newest picture of the simulation.
     fn frame(&self) -> Arc<Frame>;

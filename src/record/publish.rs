@@ -2,16 +2,21 @@
 
 use std::sync::Arc;
 
+use super::frame::{BodyFrame, ContactFrame, Frame, Lag, Recorded};
+use super::ledger::EventRow;
+use super::paths::{PathSpan, at_impact, paths};
 use super::recorder::RunRecorder;
 use super::run::Run;
-use super::{BodyFrame, ContactFrame, Frame, Lag};
-use crate::sim::{BodyRef, Plan, Simulation};
+use crate::sim::{BodyRef, BodyState, Simulation};
 
 /// Occupied tiles that a frame lists; an overlay that shows more would be a solid block.
 const MAX_TILES: usize = 20_000;
 
 /// Contacts of heaps that a frame lists, the strongest.
 const MAX_CONTACTS: usize = 20_000;
+
+/// Events of one Δt that a frame lists; of more the last.
+const MAX_ROWS: u64 = 20_000;
 
 /// What a runner measured with its clock.
 #[derive(Clone, Copy, Debug, Default)]
@@ -22,9 +27,10 @@ pub(super) struct Pace {
     pub(super) lag: Option<Lag>,
 }
 
-pub(super) fn frame_of(recorder: &mut RunRecorder, revision: u64, pace: Pace) -> Frame {
+pub(super) fn frame_of(recorder: &mut RunRecorder, revision: u64, command: u64, pace: Pace) -> Frame {
     let base = Frame {
         revision,
+        command,
         state: recorder.state(),
         method: recorder.method,
         problems: recorder.problems.clone(),
@@ -34,60 +40,121 @@ pub(super) fn frame_of(recorder: &mut RunRecorder, revision: u64, pace: Pace) ->
         lag: pace.lag,
         ..Frame::default()
     };
+    let span = recorder.paths;
     match &mut recorder.run {
         None => base,
-        Some(run) => {
+        Some(run) if run.is_settled() => {
             run.look_for_overlap();
-            with_run(base, run)
+            settled(looked_up(base, run, span), run)
         }
+        Some(run) => Frame { bodies: bodies_looked_up(run), ..looked_up(base, run, span) },
     }
 }
 
-fn with_run(base: Frame, run: &Run) -> Frame {
-    let simulation = &run.simulation;
-    let plan: &Plan = simulation.plan();
-    let contacts = contacts(simulation);
+/// What the recording says of the moment shown.
+fn looked_up(base: Frame, run: &Run, span: Option<PathSpan>) -> Frame {
+    let (events, events_truncated) = events(run);
     Frame {
-        time: simulation.time(),
+        time: run.cursor.time,
         dt_index: run.grid.index(),
         step: run.grid.span(),
         open_step: run.grid.open,
-        bodies: bodies(simulation),
-        stepped: simulation.stepped(),
-        contacts_truncated: contacts.len() >= MAX_CONTACTS,
-        contacts,
-        events: run.rows.list.iter().cloned().collect(),
-        events_truncated: run.rows.truncated,
-        event_count: run.last_event,
-        energy: Some(simulation.energy()),
-        momentum: Some(simulation.momentum()),
-        largest_jump: run.drift.largest(),
+        events,
+        events_truncated,
+        ledger: run.recording.ledger.clone(),
+        recorded: Arc::new(recorded(run)),
+        at_impact: Arc::new(at_impact(run)),
+        paths: span.map_or_else(Arc::default, |span| Arc::new(paths(run, span))),
+        event_count: run.cursor.event,
+        largest_jump: run.drift.largest(run.cursor.event),
         worst_overlap: run.worst_overlap,
-        counters: simulation.counters(),
-        plan: Arc::new(plan.clone()),
-        tiling: Arc::new(simulation.tiling(MAX_TILES)),
-        can_step_back: run.history.can_go_back(simulation),
+        counters: run.simulation.counters(),
+        plan: Arc::new(run.simulation.plan().clone()),
+        can_step_back: run.can_step_back(),
         fault: run.message.clone(),
         ..base
     }
 }
 
+/// What the simulation adds once it stands there.
+fn settled(frame: Frame, run: &Run) -> Frame {
+    let simulation = &run.simulation;
+    let contacts = contacts(simulation);
+    Frame {
+        is_settled: true,
+        bodies: bodies(simulation),
+        stepped: simulation.stepped(),
+        contacts_truncated: contacts.len() >= MAX_CONTACTS,
+        contacts,
+        energy: Some(simulation.energy()),
+        momentum: Some(simulation.momentum()),
+        tiling: Arc::new(simulation.tiling(MAX_TILES)),
+        ..frame
+    }
+}
+
+fn recorded(run: &Run) -> Recorded {
+    let recording = &run.recording;
+    Recorded {
+        from: recording.from().time,
+        to: recording.end.time,
+        bytes: recording.bytes(),
+        budget: recording.budget(),
+        edits: recording.edits().iter().map(|edits| edits.at.time).collect(),
+        can_bring_back: run.dropped.is_some(),
+    }
+}
+
+/// Events of the Δt around the moment shown, up to it; and whether older ones are left out.
+fn events(run: &Run) -> (Vec<Arc<EventRow>>, bool) {
+    let ledger = &run.recording.ledger;
+    let Some((start, _)) = run.grid.span() else { return (Vec::new(), false) };
+    let before = match run.recording.ticks.around(start).0 {
+        Some(tick) if tick.at.time == start => tick.at.event,
+        _ => ledger.number_until(start),
+    };
+    let count = run.cursor.event.saturating_sub(before);
+    let first = run.cursor.event + 1 - count.min(MAX_ROWS);
+    let rows = (first..=run.cursor.event).filter_map(|number| ledger.get(number)).cloned().collect();
+    (rows, count > MAX_ROWS)
+}
+
 fn bodies(simulation: &Simulation) -> Vec<BodyFrame> {
-    simulation
-        .dynamic_bodies()
-        .filter_map(|body| {
-            let state = simulation.state(body)?;
-            Some(BodyFrame {
-                key: simulation.key(body),
-                position: state.position,
-                velocity: state.velocity,
-                acceleration: state.acceleration,
-                force: simulation.total_force(body),
-                kinetic: 0.5 * simulation.mass(body)? * state.velocity.length_squared(),
-                contact: state.contact,
-            })
+    let states = simulation.dynamic_bodies().filter_map(|body| Some((body, simulation.state(body)?)));
+    states
+        .filter_map(|(body, state)| body_frame(simulation, body, &state, simulation.total_force(body)))
+        .collect()
+}
+
+/// The bodies that were there at the moment shown, with their recorded motion and the forces of then.
+pub(super) fn bodies_looked_up(run: &Run) -> Vec<BodyFrame> {
+    let time = run.cursor.time;
+    let then = run.recording.keyframes.before(run.cursor).map(|key| key.snapshot.simulation());
+    let simulation = then.unwrap_or(&run.simulation);
+    let pieces =
+        simulation.dynamic_bodies().filter_map(|body| Some((body, run.recording.piece(body, run.cursor)?)));
+    pieces
+        .filter_map(|(body, piece)| {
+            body_frame(simulation, body, &piece.at(time), simulation.force_on(body, piece, time))
         })
         .collect()
+}
+
+fn body_frame(
+    simulation: &Simulation,
+    body: BodyRef,
+    state: &BodyState,
+    force: glam::DVec3,
+) -> Option<BodyFrame> {
+    Some(BodyFrame {
+        key: simulation.key(body),
+        position: state.position,
+        velocity: state.velocity,
+        acceleration: state.acceleration,
+        force,
+        kinetic: 0.5 * simulation.mass(body)? * state.velocity.length_squared(),
+        contact: state.contact,
+    })
 }
 
 fn contacts(simulation: &Simulation) -> Vec<ContactFrame> {

@@ -4,14 +4,17 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use super::replay::Replay;
-use super::run::{Run, Slice};
-use super::{RunCommand, RunState};
+use super::command::{Goal, RunCommand};
+use super::frame::RunState;
+use super::paths::PathSpan;
+use super::recording::BUDGET;
+use super::run::Run;
+use super::task::{Play, Task};
 use crate::scene::{Diagnostic, Scene};
 use crate::sim::{Method, SimEdit, Simulation};
 
 /// Drives one simulation.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct RunRecorder {
     pub(super) run: Option<Run>,
     /// How simulations are stepped.
@@ -20,59 +23,51 @@ pub(super) struct RunRecorder {
     pub(super) problems: Arc<Vec<Diagnostic>>,
     task: Task,
     waiting: VecDeque<RunCommand>,
+    /// Edits that wait until the simulation is where they are made.
+    edits: Vec<SimEdit>,
+    /// Bytes that recordings may take.
+    budget: usize,
+    /// How much of the bodies' ways frames have.
+    pub(super) paths: Option<PathSpan>,
 }
 
-/// What is being worked on.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-enum Task {
-    #[default]
-    Idle,
-    Steps {
-        dt: f64,
-        left: u32,
-    },
-    ToEvent {
-        dt: f64,
-        /// Δt without an event so far.
-        empty: u32,
-    },
-    Finish,
-    Back(Replay),
-    Play {
-        dt: f64,
-        speed: f64,
-        /// Model seconds that have come due and are not yet simulated.
-        due: f64,
-        /// Model seconds that were given up, for the machine cannot follow.
-        lost: f64,
-    },
+impl Default for RunRecorder {
+    fn default() -> Self {
+        Self {
+            run: None,
+            method: Method::default(),
+            problems: Arc::default(),
+            task: Task::Idle,
+            waiting: VecDeque::new(),
+            edits: Vec::new(),
+            budget: BUDGET,
+            paths: None,
+        }
+    }
 }
-
-/// Wall-clock seconds of playing that may wait to be simulated. A machine that cannot follow falls behind
-/// by this much and then plays slower, with the same Δt.
-const MOST_DUE: f64 = 0.1;
-
-/// Δt without an event after which "next event" stops looking, so that a scene in which nothing happens
-/// any more does not run for ever.
-const MOST_EMPTY_STEPS: u32 = 100_000;
 
 impl RunRecorder {
     /// Takes a command. Those that end what is being done act at once; others wait for it.
     pub(super) fn command(&mut self, command: RunCommand) {
         match command {
             RunCommand::Load(scene) => self.load(scene),
-            RunCommand::Unload => *self = Self { method: self.method, ..Self::default() },
+            RunCommand::Unload => {
+                *self =
+                    Self { method: self.method, budget: self.budget, paths: self.paths, ..Self::default() }
+            }
             RunCommand::Reset => self.reset(),
             RunCommand::Method(method) if method != self.method => {
                 self.method = method;
                 self.reset();
             }
             RunCommand::Method(_) => {}
+            RunCommand::Budget(bytes) => self.set_budget(bytes),
+            RunCommand::Paths(span) => self.paths = span,
             RunCommand::Pause => self.stop(),
-            // One that is made while going back is meant for where that leads to.
-            RunCommand::Edit(edits) if !self.goes_back() => self.edit(edits),
+            // After commands that wait it is meant for where they lead to.
+            RunCommand::Edit(edits) if self.waiting.is_empty() => self.edits.extend(edits),
             other => {
-                if matches!(self.task, Task::Play { .. }) {
+                if matches!(self.task, Task::Play(_)) {
                     self.task = Task::Idle;
                 }
                 self.waiting.push_back(other);
@@ -80,37 +75,27 @@ impl RunRecorder {
         }
     }
 
-    /// Whether it goes back, or will when what waits is done.
-    fn goes_back(&self) -> bool {
-        let back = |command: &RunCommand| {
-            matches!(command, RunCommand::StepBack | RunCommand::EventBack | RunCommand::GoTo { .. })
-        };
-        matches!(self.task, Task::Back(_)) || self.waiting.iter().any(back)
-    }
-
     pub(super) fn state(&self) -> RunState {
         match (&self.run, self.task) {
             (None, _) => RunState::Empty,
-            (Some(run), _) if run.faulted => RunState::Faulted,
-            (_, Task::Play { .. }) => RunState::Playing,
-            (_, Task::Idle) if self.waiting.is_empty() => RunState::Paused,
+            (Some(run), _) if run.is_faulted() => RunState::Faulted,
+            (_, Task::Play(_)) => RunState::Playing,
+            (_, Task::Idle) if self.waiting.is_empty() && self.edits.is_empty() => RunState::Paused,
             _ => RunState::Busy,
         }
     }
 
     /// Notes that wall-clock time has passed, while playing.
     pub(super) fn elapse(&mut self, wall_s: f64) {
-        if let Task::Play { dt, speed, due, lost } = &mut self.task {
-            let wanted = *due + wall_s.max(0.0) * *speed;
-            *due = wanted.min(MOST_DUE * *speed + *dt);
-            *lost += wanted - *due;
+        if let Task::Play(play) = &mut self.task {
+            play.elapse(wall_s);
         }
     }
 
     /// Model seconds that playing has given up since the last call.
     pub(super) fn take_lost(&mut self) -> f64 {
         match &mut self.task {
-            Task::Play { lost, .. } => std::mem::take(lost),
+            Task::Play(play) => play.take_lost(),
             _ => 0.0,
         }
     }
@@ -119,66 +104,53 @@ impl RunRecorder {
     pub(super) fn work(&mut self, events: u32) -> bool {
         let mut budget = events;
         while budget > 0 {
-            if self.task == Task::Idle && !self.start_next() {
-                return false;
+            if !self.edits.is_empty() {
+                self.make_edits(&mut budget);
+                continue;
+            }
+            if self.task == Task::Idle {
+                if let Some(run) = &mut self.run {
+                    run.finish_moment();
+                }
+                if !self.start_next() {
+                    return self.settle(budget);
+                }
+                // What was looked up can be shown before the simulation is there.
+                if self.task == Task::Idle && self.waiting.is_empty() {
+                    return true;
+                }
             }
             let Some(run) = &mut self.run else {
                 self.stop();
                 return false;
             };
-            if run.faulted {
+            if run.is_faulted() {
                 self.stop();
                 return false;
             }
-            if !Self::advance_task(&mut self.task, run, &mut budget) {
-                return !matches!(self.task, Task::Play { .. });
+            if !self.task.advance(run, &mut budget) {
+                return !matches!(self.task, Task::Play(_));
             }
         }
         true
     }
 
-    /// Does one Δt of the task, or what the budget allows; false when a task cannot go on for now.
-    fn advance_task(task: &mut Task, run: &mut Run, budget: &mut u32) -> bool {
-        match task {
-            Task::Idle => {}
-            Task::Steps { dt, left } => match run.slice(*dt, budget) {
-                Slice::Done if *left <= 1 => *task = Task::Idle,
-                Slice::Done => *left -= 1,
-                Slice::Event | Slice::Pause => {}
-            },
-            Task::ToEvent { dt, empty } => match run.slice(*dt, budget) {
-                Slice::Event => *task = Task::Idle,
-                Slice::Done if *empty >= MOST_EMPTY_STEPS => {
-                    run.message = Some(format!("no event within {MOST_EMPTY_STEPS} Δt"));
-                    *task = Task::Idle;
-                }
-                Slice::Done => *empty += 1,
-                Slice::Pause => {}
-            },
-            Task::Back(replay) => {
-                *budget -= 1;
-                if run.replay(replay) {
-                    *task = Task::Idle;
-                }
-            }
-            Task::Finish => match run.grid.open {
-                Some((start, end)) => {
-                    if matches!(run.slice(end - start, budget), Slice::Done) {
-                        *task = Task::Idle;
-                    }
-                }
-                None => *task = Task::Idle,
-            },
-            Task::Play { dt, due, .. } => {
-                if run.grid.open.is_none() && *due < *dt {
-                    return false;
-                }
-                if matches!(run.slice(*dt, budget), Slice::Done) {
-                    *due = (*due - *dt).max(0.0);
-                }
-            }
+    /// Makes the edits that wait, once the simulation is where what is shown is.
+    fn make_edits(&mut self, budget: &mut u32) {
+        let Some(run) = &mut self.run else {
+            self.edits.clear();
+            return;
+        };
+        *budget -= 1;
+        if run.settle() {
+            run.edit(std::mem::take(&mut self.edits));
         }
-        true
+    }
+
+    /// With nothing else to do, brings the simulation to what is shown; whether it is still on its way.
+    fn settle(&mut self, budget: u32) -> bool {
+        let Some(run) = &mut self.run else { return false };
+        !(0..budget).any(|_| run.settle())
     }
 
     /// Takes the next waiting command; false when there is none.
@@ -188,28 +160,41 @@ impl RunRecorder {
             self.waiting.clear();
             return false;
         };
-        if !run.faulted {
+        if !run.is_faulted() {
             run.message = None;
         }
-        let valid = |dt: f64| dt.is_finite() && dt > 0.0;
+        let is_valid = |dt: f64| dt.is_finite() && dt > 0.0;
         match command {
-            RunCommand::Step { dt, count } if valid(dt) && count > 0 => {
-                self.task = Task::Steps { dt, left: count }
+            RunCommand::Step { dt, .. }
+            | RunCommand::NextEvent { dt, .. }
+            | RunCommand::RunUntil { dt, .. }
+            | RunCommand::Play { dt, .. }
+            | RunCommand::Seek { dt, .. }
+                if !is_valid(dt) =>
+            {
+                run.message = Some("Δt must be above zero".into());
             }
-            RunCommand::NextEvent { dt } if valid(dt) => self.task = Task::ToEvent { dt, empty: 0 },
+            RunCommand::Step { dt, count } if count > 0 => self.task = Task::Steps { dt, left: count },
+            RunCommand::NextEvent { dt, of } => self.task = Task::ToEvent { dt, of, empty: 0 },
+            RunCommand::RunUntil { dt, goal } => self.task = Task::Until { dt, goal },
             RunCommand::FinishStep => self.task = Task::Finish,
-            RunCommand::Play { dt, speed } if valid(dt) && speed.is_finite() && speed > 0.0 => {
-                self.task = Task::Play { dt, speed, due: 0.0, lost: 0.0 };
+            RunCommand::Play { dt, speed, range } if speed.is_finite() && speed != 0.0 => {
+                self.task = Task::Play(Play::new(dt, speed, range));
             }
-            RunCommand::StepBack => self.task = run.step_back().map_or(Task::Idle, Task::Back),
-            RunCommand::EventBack => self.task = run.event_back().map_or(Task::Idle, Task::Back),
-            RunCommand::GoTo { event } => {
-                self.task = run.back_to_event(event).map_or(Task::Idle, Task::Back);
+            RunCommand::Play { .. } => run.message = Some("the speed must not be zero".into()),
+            RunCommand::Seek { time, .. } if !time.is_finite() => {
+                run.message = Some("that is not a time".into());
             }
-            RunCommand::Edit(edits) => run.edit(edits),
-            RunCommand::Step { .. } | RunCommand::NextEvent { .. } | RunCommand::Play { .. } => {
-                run.message = Some("Δt and speed must be above zero".into());
+            RunCommand::Seek { dt, time } => {
+                if !run.seek(time) {
+                    self.task = Task::Until { dt, goal: Goal::Time(time) };
+                }
             }
+            RunCommand::StepBack => drop(run.step_back()),
+            RunCommand::EventBack { of } => run.event_back(of),
+            RunCommand::GoTo { event } => run.go_to_event(event),
+            RunCommand::Edit(edits) => self.edits.extend(edits),
+            RunCommand::BringBack => run.bring_back(),
             _ => {}
         }
         true
@@ -218,6 +203,14 @@ impl RunRecorder {
     fn stop(&mut self) {
         self.task = Task::Idle;
         self.waiting.clear();
+        self.edits.clear();
+    }
+
+    fn set_budget(&mut self, bytes: usize) {
+        self.budget = bytes;
+        if let Some(run) = &mut self.run {
+            run.recording.set_budget(bytes);
+        }
     }
 
     fn load(&mut self, scene: Arc<Scene>) {
@@ -225,7 +218,7 @@ impl RunRecorder {
         match Simulation::with_method(&scene, self.method) {
             Ok(simulation) => {
                 self.problems = Arc::new(simulation.start_warnings().to_vec());
-                self.run = Some(Run::new(simulation, scene));
+                self.run = Some(Run::new(simulation, scene, self.budget));
             }
             Err(error) => {
                 self.problems = Arc::new(error.problems);
@@ -237,12 +230,6 @@ impl RunRecorder {
     fn reset(&mut self) {
         if let Some(run) = self.run.take() {
             self.load(run.scene);
-        }
-    }
-
-    fn edit(&mut self, edits: Vec<SimEdit>) {
-        if let Some(run) = &mut self.run {
-            run.edit(edits);
         }
     }
 }

@@ -1,92 +1,169 @@
-//! A loaded simulation on its grid of Δt, with the table of events and what is needed to go back.
+//! A loaded simulation on its grid of Δt, with the recording of what it has done, and the moment of it that is shown.
 
-use std::collections::VecDeque;
 use std::sync::Arc;
 
-use super::EventRow;
 use super::drift::Drift;
 use super::grid::StepGrid;
-use super::history::History;
+use super::moment::Moment;
+use super::recording::{Future, Recording};
+use super::ticks::Tick;
 use crate::scene::Scene;
 use crate::sim::{Event, Fault, Progress, SimEdit, Simulation};
 
-/// Events of one Δt that are kept for the table; older ones are left out, and the frame says so.
-const MAX_ROWS: usize = 20_000;
-
 /// Predictions carried out between two looks at the budget: a Δt may hold millions that are no events.
 pub(super) const PREDICTIONS: u32 = 16;
+
+/// Portions of work on what is left at one time; more is no ordinary scene.
+const MOST_AT_ONCE: u32 = 10_000;
 
 /// A loaded simulation with its Δt grid and its past.
 #[derive(Debug)]
 pub(super) struct Run {
     pub(super) simulation: Simulation,
     pub(super) scene: Arc<Scene>,
+    /// The Δt around what is shown.
     pub(super) grid: StepGrid,
-    pub(super) rows: Rows,
-    pub(super) history: History,
+    /// What is shown: somewhere in the recording.
+    pub(super) cursor: Moment,
+    /// Where the simulation stands: at the cursor, or on its way there.
+    pub(super) at: Moment,
+    /// How many recorded edits the simulation has behind it.
+    pub(super) applied: usize,
+    pub(super) recording: Recording,
+    /// What an edit in the past has replaced, until the next edit.
+    pub(super) dropped: Option<Future>,
     pub(super) drift: Drift,
     /// Deepest overlap at any time looked at so far, m.
     pub(super) worst_overlap: f64,
-    /// Number of the last event reached.
-    pub(super) last_event: u64,
     /// The fault that stopped it, or why the last edit was refused.
     pub(super) message: Option<String>,
-    pub(super) faulted: bool,
+    /// When a fault stopped it.
+    pub(super) fault: Option<Moment>,
+    /// Whether the simulation has stopped where it was between two events.
+    is_between: bool,
 }
 
-/// Events of the Δt being looked at.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Rows {
-    pub(super) list: VecDeque<Arc<EventRow>>,
-    pub(super) truncated: bool,
+/// Where to stop inside a Δt.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stop {
+    /// At events that are recorded; one that is simulated always ends a slice of work.
+    pub(super) at_events: bool,
+    /// Not beyond this time, s.
+    pub(super) time: f64,
+}
+
+impl Stop {
+    pub(super) const NOWHERE: Self = Self { at_events: false, time: f64::INFINITY };
+    pub(super) const AT_EVENTS: Self = Self { at_events: true, time: f64::INFINITY };
 }
 
 /// What became of a Δt in a slice of work.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Slice {
     /// The Δt is done.
     Done,
     /// An event was reached.
     Event,
+    /// The time to stop at was reached inside the Δt.
+    Stopped,
     /// The slice is used up.
     Pause,
 }
 
 impl Run {
-    pub(super) fn new(simulation: Simulation, scene: Arc<Scene>) -> Self {
-        let history = History::new(&simulation, StepGrid::new());
+    pub(super) fn new(mut simulation: Simulation, scene: Arc<Scene>, budget: usize) -> Self {
+        let grid = StepGrid::new();
+        let recording = Recording::new(&mut simulation, grid, budget);
         Self {
             worst_overlap: simulation.worst_overlap(),
+            cursor: recording.end,
+            at: recording.end,
             simulation,
             scene,
-            grid: StepGrid::new(),
-            rows: Rows::default(),
-            history,
+            grid,
+            applied: 0,
+            recording,
+            dropped: None,
             drift: Drift::default(),
-            last_event: 0,
             message: None,
-            faulted: false,
+            fault: None,
+            is_between: false,
         }
     }
 
-    /// Goes on in the open Δt, or opens one, until an event, its end, or the end of the budget.
-    pub(super) fn slice(&mut self, dt: f64, budget: &mut u32) -> Slice {
-        let (_, end) = self.open_step(dt);
+    /// Whether the simulation is at what is shown.
+    pub(super) fn is_settled(&self) -> bool {
+        self.at == self.cursor
+    }
+
+    /// Whether what is shown is the end of what is known, and the simulation there.
+    fn is_live(&self) -> bool {
+        self.is_settled() && self.at == self.recording.end
+    }
+
+    /// Whether a fault keeps it from going on from what is shown.
+    pub(super) fn is_faulted(&self) -> bool {
+        self.fault == Some(self.cursor)
+    }
+
+    /// Goes on in the open Δt, or opens one, until its end, a stop on the way, or the end of the budget: through what is
+    /// recorded by looking it up, and beyond by simulating.
+    pub(super) fn slice(&mut self, dt: f64, stop: Stop, budget: &mut u32) -> Slice {
         if *budget == 0 {
             return Slice::Pause;
         }
         *budget -= 1;
-        self.begin_until(end, end);
-        match self.simulation.work(PREDICTIONS) {
+        let Some(end) = self.open_step(dt) else {
+            self.settle();
+            return Slice::Pause;
+        };
+        let until = end.min(stop.time).max(self.cursor.time);
+        if stop.at_events
+            && let Some(next) = self.next_recorded(until)
+        {
+            self.cursor = next;
+            return Slice::Event;
+        }
+        if self.recording.knows(until) {
+            self.cursor = self.recording.moment_at(until);
+            if until < end {
+                return Slice::Stopped;
+            }
+            self.grid.close();
+            self.recording.ticks.note(Tick { at: self.cursor, grid: self.grid });
+            return Slice::Done;
+        }
+        if !self.go_to_end() {
+            return Slice::Pause;
+        }
+        self.simulate(end, until)
+    }
+
+    /// The next recorded event, if it is not after `end`.
+    fn next_recorded(&self, end: f64) -> Option<Moment> {
+        let event = self.cursor.event + 1;
+        let time = self.recording.ledger.get(event)?.event.time;
+        (time <= end).then_some(Moment::right_after(event, time))
+    }
+
+    /// Goes on simulating at the end of what is known, towards the end of the Δt.
+    fn simulate(&mut self, end: f64, until: f64) -> Slice {
+        // A method that steps by Δt must know its end before it is asked to stop inside it.
+        self.simulation.begin(end);
+        self.simulation.begin(until);
+        let progress = self.simulation.work(PREDICTIONS);
+        self.reached(&progress);
+        match progress {
             Ok(Progress::Event(event)) => {
                 self.note(&event);
                 Slice::Event
             }
             Ok(Progress::Working) => Slice::Pause,
-            // The place of a recorded edit.
-            Ok(Progress::Done) if self.simulation.time() < end => Slice::Pause,
+            Ok(Progress::Done) if self.at.time < end => Slice::Stopped,
             Ok(Progress::Done) => {
-                self.close_step();
-                self.apply_due_edits();
+                self.grid.close();
+                self.recording.end_grid = self.grid;
+                self.recording.note_tick(&self.simulation);
                 Slice::Done
             }
             Err(fault) => {
@@ -96,28 +173,37 @@ impl Run {
         }
     }
 
-    /// Begins the Δt that ends at `end`, or goes on in it, up to `until` or to where the next recorded edit was
-    /// made. Edits of this very moment are applied first.
-    pub(super) fn begin_until(&mut self, end: f64, until: f64) {
-        // A method that steps by Δt must know its end before it is asked to stop inside it.
-        self.simulation.begin(end);
-        self.apply_due_edits();
-        // An edit ends the Δt; the rest of it is begun anew.
-        self.simulation.begin(end);
-        let edit = self.history.next_edit(self.last_event).unwrap_or(f64::INFINITY);
-        self.simulation.begin(until.min(end).min(edit));
+    /// The simulation has gone on: so far is known now, and shown.
+    fn reached(&mut self, progress: &Result<Progress, Fault>) {
+        self.arrive(progress);
+        self.recording.take_motion(&mut self.simulation);
+        (self.recording.end, self.recording.end_grid) = (self.at, self.grid);
+        self.cursor = self.at;
+        self.is_between = matches!(progress, Ok(Progress::Working));
     }
 
-    /// Applies the recorded edits that were made right here.
-    pub(super) fn apply_due_edits(&mut self) {
-        while let Some(due) = self.history.take_due_edits(self.last_event, self.simulation.time()) {
-            // It was accepted in this very state before: a refusal means that the run is no longer the same.
-            for edit in &due.edits {
-                if let Err(refused) = self.simulation.apply(edit) {
-                    let time = due.at.time;
-                    self.message =
-                        Some(format!("the edit made at {time} s was refused when run again: {refused}"));
-                }
+    /// Where the simulation stands after some work.
+    pub(super) fn arrive(&mut self, progress: &Result<Progress, Fault>) {
+        if let Ok(Progress::Event(event)) = progress {
+            self.at.event = event.seq;
+        }
+        self.at.time = self.simulation.time();
+        self.at.is_over = matches!(progress, Ok(Progress::Done));
+    }
+
+    /// Work that was given up may have stopped between two things that happen at one time, which is no moment to come back
+    /// to: does what is left at that time.
+    pub(super) fn finish_moment(&mut self) {
+        let mut left = MOST_AT_ONCE;
+        while std::mem::take(&mut self.is_between) && self.is_live() && left > 0 {
+            left -= 1;
+            self.simulation.begin(self.at.time);
+            let progress = self.simulation.work(PREDICTIONS);
+            self.reached(&progress);
+            match progress {
+                Ok(Progress::Event(event)) => self.note(&event),
+                Ok(Progress::Working | Progress::Done) => {}
+                Err(fault) => self.stop_at(&fault),
             }
         }
     }
@@ -125,37 +211,62 @@ impl Run {
     /// Notes a fault: nothing goes on from here but back.
     pub(super) fn stop_at(&mut self, fault: &Fault) {
         self.message = Some(fault.to_string());
-        self.faulted = true;
+        self.fault = Some(self.at);
     }
 
-    fn open_step(&mut self, dt: f64) -> (f64, f64) {
-        if self.grid.open.is_none() {
-            self.grid.open(self.simulation.time(), dt);
-            self.rows = Rows::default();
-            let end = self.grid.open.map_or(0.0, |(_, end)| end);
-            let lost = self.history.divide_time_anew(&self.simulation, self.last_event, end);
-            if lost > 0 {
-                self.message = Some(format!("{lost} edit(s) made later, with another Δt, no longer apply"));
+    /// The end of the Δt that is open, or is now opened; `None` where another Δt than before makes another future and the
+    /// simulation has to be there first.
+    fn open_step(&mut self, dt: f64) -> Option<f64> {
+        if let Some((_, end)) = self.grid.open {
+            return Some(end);
+        }
+        let mut grid = self.grid;
+        grid.open(self.cursor.time, dt);
+        let end = grid.open.map_or(self.cursor.time, |(_, end)| end);
+        let next = self.recording.ticks.around(self.cursor.time).1;
+        let divides_anew = self.cursor != self.recording.end && next.is_none_or(|next| next.at.time != end);
+        if divides_anew && self.simulation.method().depends_on_dt() {
+            if !self.is_settled() {
+                return None;
             }
+            self.drop_future();
+        } else if divides_anew {
+            self.recording.ticks.split_off(self.cursor);
         }
-        self.grid.open.unwrap_or_default()
+        self.grid = grid;
+        Some(end)
     }
 
-    fn close_step(&mut self) {
-        self.grid.close();
-        self.history.note_tick(&self.simulation, self.grid, self.last_event);
+    /// Forgets what lies after what is shown, where the simulation stands.
+    fn drop_future(&mut self) {
+        let future = self.recording.split_off(self.cursor);
+        let lost = future.edit_count();
+        if lost > 0 {
+            self.message = Some(format!("{lost} edit(s) made later no longer apply"));
+        }
+        self.fault = None;
+        self.drift.drop_after(self.cursor.event, &self.simulation);
+        self.dropped = Some(future);
     }
 
-    /// Enters an event into the table and the history.
-    pub(super) fn note(&mut self, event: &Event) {
-        self.last_event = event.seq;
-        self.history.note_event(event);
+    /// Takes the last edit in the past back: what it replaced is the future again.
+    pub(super) fn bring_back(&mut self) {
+        let Some(future) = self.dropped.take() else {
+            self.message = Some("no edit in the past has replaced anything".into());
+            return;
+        };
+        let moment = future.from;
+        self.drift.drop_after(moment.event, &self.simulation);
+        self.recording.put_back(future);
+        self.show(moment, self.grid_at(moment));
+        self.fault = None;
+        self.rewind();
+    }
+
+    /// Enters an event into the recording.
+    fn note(&mut self, event: &Event) {
+        self.recording.note_event(&self.simulation, event);
         self.drift.note(&self.simulation, event);
-        if self.rows.list.len() >= MAX_ROWS {
-            self.rows.list.pop_front();
-            self.rows.truncated = true;
-        }
-        self.rows.list.push_back(Arc::new(row_of(&self.simulation, event, self.grid.index())));
     }
 
     /// Looks for overlaps now. It costs a look through the tiles, so it is done when a frame is made.
@@ -163,9 +274,11 @@ impl Run {
         self.worst_overlap = self.worst_overlap.max(self.simulation.worst_overlap());
     }
 
-    /// Changes the scene now, between events, and records what was accepted with the time it was stamped with.
+    /// Changes the scene at what is shown, where the simulation stands, and records what was accepted. What was recorded
+    /// for later is another future.
     pub(super) fn edit(&mut self, mut edits: Vec<SimEdit>) {
         let mut refusal = None;
+        let at_end = self.is_live();
         edits.retain(|edit| match self.simulation.apply(edit) {
             Ok(()) => true,
             Err(refused) => {
@@ -173,21 +286,18 @@ impl Run {
                 false
             }
         });
-        if !edits.is_empty() {
-            self.history.note_edits(&self.simulation, self.grid, self.last_event, edits);
-            self.faulted = false;
-        }
         self.message = refusal;
-    }
-}
-
-fn row_of(simulation: &Simulation, event: &Event, dt_index: u64) -> EventRow {
-    EventRow {
-        event: *event,
-        a_key: simulation.key(event.a),
-        b_key: event.b.map(|b| simulation.key(b)),
-        a_label: simulation.label(event.a).to_owned(),
-        b_label: event.b.map_or(String::new(), |b| simulation.label(b).to_owned()),
-        dt_index,
+        if edits.is_empty() {
+            return;
+        }
+        self.dropped = None;
+        if !at_end {
+            self.drop_future();
+        }
+        self.recording.take_motion(&mut self.simulation);
+        self.recording.end_grid = self.grid;
+        self.recording.note_edits(&self.simulation, edits);
+        self.applied = self.recording.edits().len();
+        self.fault = None;
     }
 }

@@ -1,6 +1,6 @@
 //! The threaded runner: the simulation has a thread of its own, so that no scene can freeze the window.
 
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, TryRecvError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
@@ -26,19 +26,9 @@ pub struct ThreadRunner {
     /// Ends the thread before it looks at what still waits.
     closing: Arc<AtomicBool>,
     frame: Arc<Mutex<Arc<Frame>>>,
-    unanswered: Unanswered,
+    /// Number of the last command sent.
+    sent: u64,
     thread: Option<JoinHandle<()>>,
-}
-
-/// How many commands were sent of which no frame knows yet.
-#[derive(Clone, Debug, Default)]
-pub struct Unanswered(Arc<AtomicU64>);
-
-impl Unanswered {
-    /// Whether the newest frame knows all that was sent; it may still be at work on it.
-    pub fn is_none(&self) -> bool {
-        self.0.load(Ordering::Acquire) == 0
-    }
 }
 
 impl ThreadRunner {
@@ -47,27 +37,22 @@ impl ThreadRunner {
         let (commands, received) = channel();
         let frame = Arc::new(Mutex::new(Arc::new(Frame::default())));
         let closing = Arc::new(AtomicBool::new(false));
-        let unanswered = Unanswered::default();
-        let (shared, ends) = ((frame.clone(), unanswered.clone()), closing.clone());
+        let (shared, ends) = (frame.clone(), closing.clone());
         let thread = std::thread::Builder::new()
             .name("simulation".into())
             .spawn(move || Worker::new(received, shared, Box::new(on_frame)).run(&ends))?;
-        Ok(Self { commands: Some(commands), closing, frame, unanswered, thread: Some(thread) })
-    }
-
-    /// For whoever has to wait until a command is taken up.
-    pub fn unanswered(&self) -> Unanswered {
-        self.unanswered.clone()
+        Ok(Self { commands: Some(commands), closing, frame, sent: 0, thread: Some(thread) })
     }
 }
 
 impl Runner for ThreadRunner {
-    fn send(&mut self, command: RunCommand) {
+    fn send(&mut self, command: RunCommand) -> u64 {
+        self.sent += 1;
         if let Some(commands) = &self.commands {
-            self.unanswered.0.fetch_add(1, Ordering::Release);
             // The thread lives as long as the sender; a failed one has left its last frame to be seen.
             let _ = commands.send(command);
         }
+        self.sent
     }
 
     fn frame(&self) -> Arc<Frame> {
@@ -94,9 +79,8 @@ impl Drop for ThreadRunner {
 struct Worker {
     commands: Receiver<RunCommand>,
     shared: Arc<Mutex<Arc<Frame>>>,
-    unanswered: Unanswered,
-    /// Commands taken up since the last frame.
-    taken_up: u64,
+    /// Number of the last command taken up.
+    command: u64,
     on_frame: Box<dyn Fn() + Send>,
     recorder: RunRecorder,
     revision: u64,
@@ -122,7 +106,7 @@ const PACE_TIME: Duration = Duration::from_millis(500);
 impl Worker {
     fn new(
         commands: Receiver<RunCommand>,
-        (shared, unanswered): (Arc<Mutex<Arc<Frame>>>, Unanswered),
+        shared: Arc<Mutex<Arc<Frame>>>,
         on_frame: Box<dyn Fn() + Send>,
     ) -> Self {
         let now = Instant::now();
@@ -136,7 +120,7 @@ impl Worker {
             pace: Pace::default(),
         };
         let recorder = RunRecorder::default();
-        Self { commands, shared, unanswered, taken_up: 0, on_frame, recorder, revision: 0, clock }
+        Self { commands, shared, command: 0, on_frame, recorder, revision: 0, clock }
     }
 
     fn run(mut self, closing: &AtomicBool) {
@@ -149,7 +133,7 @@ impl Worker {
             let received = match received {
                 Received::Command(command) => {
                     self.recorder.command(command);
-                    self.taken_up += 1;
+                    self.command += 1;
                     true
                 }
                 Received::Nothing => false,
@@ -196,9 +180,8 @@ impl Worker {
         let started = Instant::now();
         self.measure();
         self.revision += 1;
-        let frame = Arc::new(frame_of(&mut self.recorder, self.revision, self.clock.pace));
+        let frame = Arc::new(frame_of(&mut self.recorder, self.revision, self.command, self.clock.pace));
         *self.shared.lock().unwrap_or_else(PoisonError::into_inner) = frame;
-        self.unanswered.0.fetch_sub(std::mem::take(&mut self.taken_up), Ordering::Release);
         self.clock.last_frame = Instant::now();
         self.clock.publishing = self.clock.last_frame - started;
         (self.on_frame)();
@@ -214,7 +197,7 @@ impl Worker {
         }
         let lost = self.recorder.take_lost();
         let Some(run) = &self.recorder.run else { return };
-        let (new_events, new_steps) = (run.last_event, run.grid.index());
+        let (new_events, new_steps) = (run.at.event, run.grid.index());
         let worked = self.clock.working.as_secs_f64();
         let stepped = new_steps.saturating_sub(steps);
         if stepped > 0 {

@@ -56,6 +56,7 @@ mod place;
 mod queue;
 mod segment;
 mod state;
+mod trace;
 mod way_in;
 
 // What looks on.
@@ -75,3 +76,4 @@ pub use report::{
 };
 pub use simulation::{CompileError, Progress, Simulation, Snapshot};
 pub use stepping::StepLimits;
+pub use trace::{Begun, Piece};

@@ -17,6 +17,7 @@ use super::model::Model;
 use super::neighbours::enter;
 use super::report::{BodyState, ContactForce, Counters, Energy, Momentum, Plan, SteppedBodies, Tiling};
 use super::state::State;
+use super::trace::{Begun, Piece};
 use super::{change, dense, drive, hash, monitor};
 use crate::scene::{Diagnostic, NodeKey, Scene};
 
@@ -41,6 +42,13 @@ pub enum Progress {
 /// A bit-exact copy of a simulation at one time.
 #[derive(Clone, Debug)]
 pub struct Snapshot(Box<Simulation>);
+
+impl Snapshot {
+    /// The simulation as it was.
+    pub fn simulation(&self) -> &Simulation {
+        &self.0
+    }
+}
 
 /// A running scene.
 ///
@@ -119,7 +127,11 @@ impl Simulation {
             if let Some(fault) = &self.fault {
                 return Err(fault.clone());
             }
-            match drive::advance(&self.model, &mut self.state) {
+            let advanced = drive::advance(&self.model, &mut self.state);
+            // What an event changed is seen from that event on, from the first where one impact has several rows.
+            let event = self.state.outbox.front().map(|event| event.seq);
+            self.state.seal_trace(event.unwrap_or(self.state.sequence), event.is_some());
+            match advanced {
                 Ok(true) => {}
                 Ok(false) => {
                     self.state.now = self.state.until;
@@ -206,6 +218,11 @@ impl Simulation {
         self.identity(body).map_or("", |identity| &identity.label)
     }
 
+    /// As [`Self::label`], shared.
+    pub fn shared_label(&self, body: BodyRef) -> Arc<str> {
+        self.identity(body).map_or_else(Arc::default, |identity| identity.label.clone())
+    }
+
     /// Mass in kg of a dynamic body; `None` for others.
     pub fn mass(&self, body: BodyRef) -> Option<f64> {
         self.dynamic_index(body).map(|index| self.model.mass(index))
@@ -239,6 +256,28 @@ impl Simulation {
 
     pub fn plan(&self) -> &Plan {
         &self.model.plan
+    }
+
+    /// Records from now on how bodies move; what they follow now comes first.
+    pub fn trace_motion(&mut self) {
+        self.state.trace.is_on = true;
+        for body in self.model.present() {
+            self.state.note_begun(body);
+        }
+        self.state.seal_trace(self.state.sequence - self.state.outbox.len() as u64, true);
+    }
+
+    /// Hands out the pieces of motion begun since the last call, in the order begun; see [`Self::trace_motion`].
+    pub fn take_motion(&mut self, each: &mut dyn FnMut(Begun)) {
+        self.state.trace.take(each);
+    }
+
+    /// Sum of the applied forces on a dynamic body that follows a piece of motion, at a time, N; zero for others.
+    pub fn force_on(&self, body: BodyRef, piece: &Piece, time: f64) -> DVec3 {
+        self.dynamic_index(body).map_or(DVec3::ZERO, |index| {
+            let (place, velocity) = piece.place_and_velocity(time);
+            self.model.applied_force(&self.model.subject(index, time, place, velocity))
+        })
     }
 
     /// Bytes in which the motion of the dynamic bodies is stored: more where it is integrated.
@@ -291,6 +330,8 @@ impl Simulation {
     ) -> Result<T, EditRefused> {
         let (mut model, mut state) = (Model::clone(&self.model), self.state.clone());
         let outcome = change(&mut model, &mut state)?;
+        // An edit is seen at once, before its event is handed out.
+        state.seal_trace(self.state.sequence - self.state.outbox.len() as u64, true);
         (self.model, self.state, self.fault) = (Arc::new(model), state, None);
         Ok(outcome)
     }

@@ -16,6 +16,7 @@ use super::queue::{Kind, Predicted, Queue};
 use super::report::{ContactState, Counters};
 use super::segment::{Path, Segment, Series};
 use super::tiles::{DynamicTiles, TileRange};
+use super::trace::{Hold, Trace};
 use super::way_in::Plunge;
 
 /// Mutable part of a simulation; a clone of it is a bit-exact snapshot.
@@ -55,6 +56,8 @@ pub(super) struct State {
     pub group: u64,
     pub account: Account,
     pub counters: Counters,
+    /// The motion, for whoever records it.
+    pub trace: Trace,
     pub scratch: Scratch,
 }
 
@@ -114,6 +117,7 @@ impl State {
             group: 0,
             account: Account::default(),
             counters: Counters::default(),
+            trace: Trace::default(),
             scratch: Scratch::default(),
         };
         for origin in origins {
@@ -210,6 +214,34 @@ impl State {
         let path = self.path(body);
         let still = path.velocity(time) == DVec3::ZERO && path.acceleration(time) == DVec3::ZERO;
         if still { ContactState::Rest } else { ContactState::Slide }
+    }
+
+    /// Notes the segment that a body has just begun, if the motion is recorded.
+    pub fn note_begun(&mut self, body: u32) {
+        if self.trace.is_on {
+            let mut trace = std::mem::take(&mut self.trace);
+            trace.push(body, self.path(body));
+            self.trace = trace;
+        }
+    }
+
+    /// Labels the segments begun since the last call with the event from which on they are seen.
+    pub fn seal_trace(&mut self, event: u64, by_event: bool) {
+        if self.trace.has_unsealed() {
+            let mut trace = std::mem::take(&mut self.trace);
+            trace.seal(event, by_event, |body| self.hold(body));
+            self.trace = trace;
+        }
+    }
+
+    fn hold(&self, body: u32) -> Hold {
+        match self.role(body) {
+            Role::Member(_) => Hold::Stepped,
+            Role::Frozen(_) => Hold::Frozen,
+            Role::Outside if !self.contacts[body as usize].is_empty() => Hold::Contact,
+            Role::Outside if self.captured.contains(&body) => Hold::Contact,
+            Role::Outside => Hold::Nothing,
+        }
     }
 
     /// What a dynamic body is to stepped groups.

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{Camera, OverlaySet, Theme, Trails};
+use super::{Camera, OverlaySet, Theme};
 use crate::record::{EventRow, Frame};
 use crate::scene::{NodeKey, Scene};
 
@@ -50,8 +50,6 @@ pub struct ViewInput<'a> {
     pub hovered: Option<NodeKey>,
     /// The event whose place is marked.
     pub highlighted: Option<&'a EventRow>,
-    /// Where bodies have been; `None` draws no trails.
-    pub trails: Option<&'a Trails>,
 }
 
 impl<'a> ViewInput<'a> {
@@ -67,7 +65,6 @@ impl<'a> ViewInput<'a> {
             selection: &[],
             hovered: None,
             highlighted: None,
-            trails: None,
         }
     }
 }

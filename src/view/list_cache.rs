@@ -12,12 +12,11 @@ pub struct ListCache {
     list: Option<Arc<DrawList>>,
 }
 
-/// What a picture depends on. The scene by the caller's revision, the frame and the trails by their own.
+/// What a picture depends on. The scene by the caller's revision, the frame by its own.
 #[derive(Debug, PartialEq)]
 struct Key {
     scene_revision: u64,
     frame_revision: Option<u64>,
-    trails_revision: Option<u64>,
     camera: super::Camera,
     viewport: super::Viewport,
     overlays: super::OverlaySet,
@@ -37,7 +36,6 @@ impl ListCache {
         let key = Key {
             scene_revision,
             frame_revision: input.frame.map(|frame| frame.revision),
-            trails_revision: input.trails.map(super::Trails::revision),
             camera: input.camera,
             viewport: input.viewport,
             overlays: input.overlays,

@@ -18,7 +18,6 @@ mod overlays;
 mod pick;
 mod see_through;
 mod stage;
-mod trails;
 mod viewpoint;
 mod views;
 
@@ -37,5 +36,4 @@ pub use list_cache::ListCache;
 pub use overlays::{OVERLAYS, Overlay, OverlaySet, velocity_scale};
 pub use pick::{Hit, pick, pick_rect};
 pub use see_through::is_see_through;
-pub use trails::{Trail, Trails};
 pub use views::{VIEWS, ViewPreset};

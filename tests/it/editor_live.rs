@@ -338,17 +338,21 @@ fn playing_takes_on_a_new_step_speed_and_time_speed() {
     let mut bench = Bench::open();
     bench.act(Action::SetDt("1/100".into()));
     bench.run(SessionCommand::PlayPause);
-    assert_eq!(bench.sent(), ["Play { dt: 0.01, speed: 1.0 }"]);
+    assert_eq!(bench.sent(), ["Play { dt: 0.01, speed: 1.0, range: None }"]);
     bench.show(|frame| frame.state = RunState::Playing);
     bench.act(Action::SetDt("0,02".into()));
     bench.run(SessionCommand::Faster);
     bench.edit(Edit::TimeSpeed(0.25));
     assert_eq!(
         bench.sent(),
-        ["Play { dt: 0.02, speed: 1.0 }", "Play { dt: 0.02, speed: 2.0 }", "Play { dt: 0.02, speed: 0.5 }"]
+        [
+            "Play { dt: 0.02, speed: 1.0, range: None }",
+            "Play { dt: 0.02, speed: 2.0, range: None }",
+            "Play { dt: 0.02, speed: 0.5, range: None }"
+        ]
     );
     bench.run(SessionCommand::Undo);
-    assert_eq!(bench.sent(), ["Play { dt: 0.02, speed: 2.0 }"]);
+    assert_eq!(bench.sent(), ["Play { dt: 0.02, speed: 2.0, range: None }"]);
     bench.run(SessionCommand::PlayPause);
     assert_eq!(bench.sent(), ["Pause"]);
 }

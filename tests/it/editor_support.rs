@@ -29,6 +29,8 @@ pub const SCENE: &str = r#"<PolyPhysicsXml Version="1.0">
 #[derive(Default)]
 pub struct Desk {
     sent: Vec<RunCommand>,
+    /// How many commands were sent.
+    count: u64,
     frame: Arc<Frame>,
 }
 
@@ -37,8 +39,11 @@ pub struct Desk {
 pub struct FakeRunner(Rc<RefCell<Desk>>);
 
 impl Runner for FakeRunner {
-    fn send(&mut self, command: RunCommand) {
-        self.0.borrow_mut().sent.push(command);
+    fn send(&mut self, command: RunCommand) -> u64 {
+        let mut desk = self.0.borrow_mut();
+        desk.sent.push(command);
+        desk.count += 1;
+        desk.count
     }
 
     fn frame(&self) -> Arc<Frame> {
@@ -123,10 +128,12 @@ impl Bench {
         self.session.poll(self.now);
     }
 
-    /// Publishes a frame that differs from the last as `change` says.
+    /// Publishes a frame that knows of all commands and differs from the last as `change` says.
     pub fn show(&mut self, change: impl FnOnce(&mut Frame)) {
         let mut frame = (*self.runner.0.borrow().frame).clone();
         frame.revision += 1;
+        frame.command = self.runner.0.borrow().count;
+        frame.is_settled = true;
         change(&mut frame);
         self.runner.0.borrow_mut().frame = Arc::new(frame);
         self.wait(Duration::ZERO);

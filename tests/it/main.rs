@@ -67,6 +67,8 @@ mod gui_picture;
 mod gui_real;
 // The window's content without a window.
 mod gui_support;
+// The timeline, the ledger, bookmarks.
+mod gui_timeline;
 // The window as a whole: selecting, stepping, events, overlays, problems, shortcuts, rest.
 mod gui_window;
 // What the window says back: refusals, Escape, snapping, markers, names.
@@ -85,6 +87,8 @@ mod layering_circles;
 mod record_methods;
 // The event at which the residual changed most, and going back to it.
 mod record_drift;
+// Moving through a recorded run, in both directions.
+mod record_travel;
 // Runners: the Δt grid, going back, edits with their stamps, playing.
 mod record_runner;
 // Pictures drawn in software without a window: silhouettes against their areas, depth order, caching.
@@ -151,7 +155,7 @@ mod study_reference;
 mod study_runs;
 // Cameras: rays against projections, framing, zoom to the cursor, the six axis views.
 mod view_camera;
-// Dragging and snapping, round lengths and short numbers, trails.
+// Dragging and snapping, round lengths and short numbers.
 mod view_drag;
 // Draw lists: what is in them, precision far from the origin, overlays, when they are built anew.
 mod view_draw_list;

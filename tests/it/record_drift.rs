@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use polyscene::record::{InlineRunner, RunCommand, Runner as _};
+use polyscene::record::{InlineRunner, Of, RunCommand, Runner as _};
 use polyscene::sim::Method;
 
 use crate::common::load::load;
@@ -18,7 +18,7 @@ fn runner(method: Method) -> InlineRunner {
 fn residuals(runner: &mut InlineRunner, count: usize) -> Vec<(u64, f64)> {
     let mut residuals = Vec::new();
     while residuals.len() < count {
-        runner.send(RunCommand::NextEvent { dt: 1.0 / 60.0 });
+        runner.send(RunCommand::NextEvent { dt: 1.0 / 60.0, of: Of::All });
         let frame = runner.frame();
         let residual = frame.energy.and_then(|energy| energy.residual).expect("both forces have potentials");
         residuals.push((frame.event_count, residual));

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use polyscene::record::{Frame, InlineRunner, RunCommand, Runner as _};
+use polyscene::record::{Frame, InlineRunner, Of, RunCommand, Runner as _};
 use polyscene::scene::{ForceKind, Scene};
 use polyscene::sim::{Method, SimEdit, Simulation};
 
@@ -87,17 +87,17 @@ fn every_event_is_come_back_to_inside_its_step() {
         let mut runner = runner(method);
         let mut seen = Vec::new();
         for _ in 0..20 {
-            runner.send(RunCommand::NextEvent { dt: 0.1 });
+            runner.send(RunCommand::NextEvent { dt: 0.1, of: Of::All });
             seen.push(bits(&runner.frame()));
         }
         for expected in seen.iter().rev().skip(1) {
-            runner.send(RunCommand::EventBack);
+            runner.send(RunCommand::EventBack { of: Of::All });
             let frame = runner.frame();
             assert_eq!(bits(&frame), *expected, "{method:?}");
             assert!(frame.open_step.is_some_and(|(start, end)| start <= frame.time && frame.time <= end));
         }
         for expected in &seen[1..] {
-            runner.send(RunCommand::NextEvent { dt: 0.1 });
+            runner.send(RunCommand::NextEvent { dt: 0.1, of: Of::All });
             assert_eq!(bits(&runner.frame()), *expected, "{method:?}");
         }
     }
@@ -108,7 +108,7 @@ fn edits_inside_a_step_are_replayed() {
     for method in STEPPING {
         let mut runner = runner(method);
         step(&mut runner, 0.1, 5);
-        runner.send(RunCommand::NextEvent { dt: 0.1 });
+        runner.send(RunCommand::NextEvent { dt: 0.1, of: Of::All });
         assert!(runner.frame().open_step.is_some());
         runner.send(RunCommand::Edit(vec![lift()]));
         assert_eq!(runner.frame().fault, None);

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use polyscene::record::{
-    Exceeded, Frame, InlineRunner, Limits, RunCommand, RunState, Runner, ThreadRunner, Watch, advance,
+    Exceeded, Frame, InlineRunner, Limits, Of, RunCommand, RunState, Runner, ThreadRunner, Watch, advance,
 };
 use polyscene::scene::{Document, ForceKind, Scene};
 use polyscene::sim::{EventKind, SimEdit, Simulation};
@@ -51,7 +51,7 @@ fn events_one_by_one_then_finish_is_one_step() {
     whole.send(RunCommand::Step { dt: 1.0, count: 3 });
     let mut pieces = loaded("thesis-appendix-2.xml");
     while pieces.frame().event_count < whole.frame().event_count {
-        pieces.send(RunCommand::NextEvent { dt: 1.0 });
+        pieces.send(RunCommand::NextEvent { dt: 1.0, of: Of::All });
         let frame = pieces.frame();
         let (start, end) = frame.open_step.expect("an event lies inside an open Δt");
         assert!(start <= frame.time && frame.time <= end);
@@ -84,18 +84,18 @@ fn event_back_returns_to_every_event() {
     let mut runner = loaded("thesis-appendix-2.xml");
     let mut seen = Vec::new();
     for _ in 0..20 {
-        runner.send(RunCommand::NextEvent { dt: 0.25 });
+        runner.send(RunCommand::NextEvent { dt: 0.25, of: Of::All });
         seen.push(bits(&runner.frame()));
     }
     for expected in seen.iter().rev().skip(1) {
-        runner.send(RunCommand::EventBack);
+        runner.send(RunCommand::EventBack { of: Of::All });
         let frame = runner.frame();
         assert_eq!(bits(&frame), *expected);
         assert_eq!(frame.events.last().map(|row| row.event.seq), Some(frame.event_count));
         assert!(frame.open_step.is_some_and(|(start, end)| start <= frame.time && frame.time <= end));
     }
     for expected in &seen[1..] {
-        runner.send(RunCommand::NextEvent { dt: 0.25 });
+        runner.send(RunCommand::NextEvent { dt: 0.25, of: Of::All });
         assert_eq!(bits(&runner.frame()), *expected);
     }
 }
@@ -157,7 +157,7 @@ fn a_refused_edit_says_why_and_changes_nothing() {
 #[test]
 fn playing_takes_whole_steps_and_falls_behind_rather_than_stretch_them() {
     let mut runner = loaded("bounce.xml");
-    runner.send(RunCommand::Play { dt: 0.01, speed: 1.0 });
+    runner.send(RunCommand::Play { dt: 0.01, speed: 1.0, range: None });
     runner.tick(0.055);
     assert_eq!(runner.frame().dt_index, 5);
     assert_eq!(runner.frame().state, RunState::Playing);
@@ -176,7 +176,7 @@ fn next_event_gives_up_where_nothing_happens() {
     scene.forces.clear();
     let mut runner = InlineRunner::new();
     runner.send(RunCommand::Load(Arc::new(scene)));
-    runner.send(RunCommand::NextEvent { dt: 0.01 });
+    runner.send(RunCommand::NextEvent { dt: 0.01, of: Of::All });
     assert_eq!(runner.frame().state, RunState::Paused);
     assert!(runner.frame().fault.is_some());
 }
@@ -187,7 +187,7 @@ fn commands_without_a_simulation_are_harmless() {
     for command in [
         RunCommand::Reset,
         RunCommand::StepBack,
-        RunCommand::EventBack,
+        RunCommand::EventBack { of: Of::All },
         RunCommand::FinishStep,
         RunCommand::Pause,
         RunCommand::Step { dt: f64::NAN, count: 3 },

@@ -1,9 +1,7 @@
-//! Snapping, round lengths and short numbers, trails.
+//! Snapping, round lengths and short numbers.
 
 use glam::{DVec3, dvec3};
-use polyscene::view::{Camera, Trails, Viewport, number, snap, snap_step, with_unit};
-
-use crate::view_scenes::frame;
+use polyscene::view::{Camera, Viewport, number, snap, snap_step, with_unit};
 
 #[test]
 fn snapping_gives_the_numbers_a_person_would_type() {
@@ -36,29 +34,4 @@ fn lengths_have_the_unit_that_keeps_them_short() {
     assert_eq!(number(-0.0001, 2), "0");
     assert_eq!(number(1.5, 3), "1.5");
     assert_eq!(number(100.0, 3), "100");
-}
-
-#[test]
-fn trails_follow_and_start_anew_when_time_goes_back() {
-    let mut trails = Trails::default();
-    let mut now = frame();
-    let key = now.bodies[0].key;
-    for i in 0..300 {
-        now.time = f64::from(i);
-        now.bodies[0].position = DVec3::splat(f64::from(i));
-        trails.push(&now);
-    }
-    let points = &trails.get(key).unwrap().points;
-    assert!(points.len() > 50 && points.len() < 300, "short: {}", points.len());
-    assert_eq!(points.back(), Some(&DVec3::splat(299.0)));
-    let revision = trails.revision();
-    trails.push(&now);
-    assert_eq!(trails.revision(), revision, "nothing new");
-    now.time = 4.0;
-    trails.push(&now);
-    assert_eq!(trails.get(key).unwrap().points.len(), 1);
-    now.time = 5.0;
-    now.bodies.remove(0);
-    trails.push(&now);
-    assert!(trails.get(key).is_none(), "the body is gone");
 }

@@ -4,10 +4,11 @@ use std::fmt::Write as _;
 use std::sync::Arc;
 
 use glam::{DVec3, Vec3, dvec3};
+use polyscene::record::{BodyPath, Frame, ImpactBody};
 use polyscene::scene::{NodeKey, Shape};
 use polyscene::sim::ContactState;
 use polyscene::view::{
-    Camera, Color, DrawList, ListCache, OVERLAYS, OverlaySet, PointShape, Projection, Theme, Trails, VIEWS,
+    Camera, Color, DrawList, ListCache, OVERLAYS, OverlaySet, PointShape, Projection, Theme, VIEWS,
     ViewInput, Viewport, build_draw_list, scene_bounds,
 };
 
@@ -109,15 +110,15 @@ fn a_huge_floor_keeps_its_place_in_a_close_view() {
 #[test]
 fn every_overlay_shows_something_and_only_when_asked() {
     let (scene, frame) = (furnished_box(), frame());
-    let mut trails = Trails::default();
-    let mut later = frame.clone();
-    trails.push(&frame);
-    later.time += 0.1;
-    later.bodies[0].position += DVec3::X;
-    trails.push(&later);
+    let body = &frame.bodies[0];
+    let past = vec![body.position - DVec3::X, body.position];
+    let paths = vec![BodyPath { key: body.key, past, future: vec![body.position, body.position + DVec3::X] }];
+    let (before, after) = (DVec3::NEG_Y, DVec3::Y);
+    let (at_start, at_end) = (body.position + DVec3::Y, Some(body.position + DVec3::Z));
+    let impact = ImpactBody { key: body.key, position: body.position, before, after, at_start, at_end };
+    let frame = Frame { paths: Arc::new(paths), at_impact: Arc::new(vec![impact]), ..frame };
     let mut input = ViewInput::new(&scene, Camera::default(), viewport());
     input.frame = Some(&frame);
-    input.trails = Some(&trails);
     let size = |overlays| {
         let list = build_draw_list(&ViewInput { overlays, ..input });
         list.lines.len() + list.arrows.len() + list.points.len() + list.labels.len()

@@ -118,9 +118,8 @@ pub fn frame() -> Frame {
         event,
         a_key: NodeKey(21),
         b_key: Some(NodeKey(4)),
-        a_label: "21".to_owned(),
-        b_label: "4".to_owned(),
-        dt_index: 3,
+        a_label: "21".into(),
+        b_label: "4".into(),
     };
     Frame {
         revision: 9,

@@ -16,11 +16,10 @@ use serde::{Deserialize, Serialize};
 use super::context::{AppContext, Message, Shown};
 use crate::design::Eye;
 use crate::editor::ViewCommand;
-use crate::record::{EventRow, Frame};
+use crate::record::{EventRow, Frame, PathSpan};
 use crate::scene::{Motion, NodeKey};
 use crate::view::{
-    self, Bounds, Camera, OVERLAYS, OverlaySet, Projection, Tool, Trails, VIEWS, ViewInput, Viewport,
-    scene_bounds,
+    self, Bounds, Camera, OVERLAYS, OverlaySet, Projection, Tool, VIEWS, ViewInput, Viewport, scene_bounds,
 };
 
 pub use canvas::Canvas;
@@ -57,10 +56,12 @@ pub struct Views {
     pub tool: Tool,
     /// Whether handles lie along the axes of the body, not of the world.
     pub local_axes: bool,
-    trails: Trails,
     canvas: Canvas,
     start: StartFrame,
 }
+
+/// Ways of the bodies that are shown, s: what a person can follow.
+const PATHS: PathSpan = PathSpan { past: 1.0, future: 1.0 };
 
 /// The frame to draw while the simulation stands at its start: a body that is being dragged is where the
 /// document has it, before the simulation knows.
@@ -76,7 +77,6 @@ struct Scenery<'a> {
     shown: &'a Shown,
     frame: Arc<Frame>,
     highlighted: Option<Arc<EventRow>>,
-    trails: &'a Trails,
     canvas: &'a Canvas,
     snapping: bool,
     tool: Tool,
@@ -97,7 +97,6 @@ impl Scenery<'_> {
             selection: self.context.session.selection().keys(),
             hovered: None,
             highlighted: self.highlighted.as_deref(),
-            trails: pane.overlays.contains("trails").then_some(self.trails),
         }
     }
 }
@@ -116,7 +115,6 @@ impl Views {
             snapping: remembered.snapping,
             tool: Tool::default(),
             local_axes: false,
-            trails: Trails::default(),
             canvas,
             start: StartFrame::default(),
         }
@@ -152,7 +150,6 @@ impl Views {
 
     /// Another document: look at the whole of it.
     pub fn opened(&mut self) {
-        self.trails.clear();
         for pane in &mut self.panes {
             pane.wants_framing = true;
             pane.follow = None;
@@ -161,9 +158,12 @@ impl Views {
         }
     }
 
-    /// Once per turn of the window, with the newest frame.
-    pub fn look_at(&mut self, frame: &Frame) {
-        self.trails.push(frame);
+    /// How much of the bodies' ways the views show.
+    pub fn wanted_paths(&self) -> Option<PathSpan> {
+        let shown = (0..self.panes.len()).filter(|index| self.is_shown(*index));
+        let any =
+            shown.filter_map(|index| self.panes.get(index)).any(|pane| pane.overlays.contains("trails"));
+        any.then_some(PATHS)
     }
 
     /// Whether the layout shows a view.
@@ -195,7 +195,6 @@ impl Views {
             shown,
             frame,
             highlighted: context.session.shown_event().cloned(),
-            trails: &self.trails,
             canvas: &self.canvas,
             snapping: self.snapping,
             tool: self.tool,

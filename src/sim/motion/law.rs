@@ -85,6 +85,7 @@ pub(in crate::sim) fn place(
     state.segments[index] = segment;
     state.stamps[index] = state.stamps[index].wrapping_add(1);
     state.counters.segments += 1;
+    state.note_begun(body);
 }
 
 /// The step that the integrator would try next for a body in contact whose segment ends; 0 if unknown.

@@ -72,5 +72,6 @@ fn replace(model: &Model, state: &mut State, body: u32, segment: Segment) -> Res
     book_segment(model, state, body, segment.start);
     state.segments[body as usize] = segment;
     state.counters.segments += 1;
+    state.note_begun(body);
     Ok(())
 }

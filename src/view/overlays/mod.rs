@@ -1,5 +1,6 @@
 //! What can be shown on top of the bodies. One table line and one file each.
 
+mod at_impact;
 mod bounds;
 mod contacts;
 mod force_chains;
@@ -8,10 +9,10 @@ mod grid;
 pub(super) mod highlight;
 mod labels;
 mod map_box;
+mod paths;
 mod scaled_arrows;
 mod states;
 mod tiles;
-mod trails;
 mod velocities;
 
 use super::DrawList;
@@ -61,6 +62,13 @@ pub const OVERLAYS: &[Overlay] = &[
         add: contacts::add,
     },
     Overlay {
+        id: "impact",
+        label: "At an event",
+        help: "Right at an event: how fast its bodies came and left, and where they are at both ends of the Δt.",
+        default_on: true,
+        add: at_impact::add,
+    },
+    Overlay {
         id: "velocities",
         label: "Velocities",
         help: "An arrow from each moving body along its velocity.",
@@ -90,10 +98,10 @@ pub const OVERLAYS: &[Overlay] = &[
     },
     Overlay {
         id: "trails",
-        label: "Trails",
-        help: "Where the moving bodies have been recently.",
+        label: "Paths",
+        help: "Where the moving bodies were in the last second, and are in the next as far as that is recorded.",
         default_on: false,
-        add: trails::add,
+        add: paths::add,
     },
     Overlay {
         id: "labels",

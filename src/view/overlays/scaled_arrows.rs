@@ -38,18 +38,57 @@ pub fn velocity_scale(scene: &Scene, camera: &Camera, viewport: Viewport) -> f64
     metres_per_unit(if largest.is_finite() && largest > 0.0 { largest } else { usual }, camera, viewport)
 }
 
+/// How long one unit of a quantity is drawn, m, so that the largest of some vectors is as long as an arrow can be; `None`
+/// without any.
+pub(super) fn scale(stage: &Stage<'_>, vectors: impl Iterator<Item = DVec3>) -> Option<f64> {
+    let largest = vectors.map(DVec3::length).fold(0.0, f64::max);
+    let is_drawable = largest.is_finite() && largest > 0.0;
+    is_drawable.then(|| metres_per_unit(largest, &stage.camera, stage.input.viewport))
+}
+
 /// Adds an arrow for each (place, vector), and a line with the scale to the legend.
 pub(super) fn add(stage: &Stage<'_>, list: &mut DrawList, quantity: &Quantity, vectors: &[(DVec3, DVec3)]) {
-    let largest = vectors.iter().map(|(_, vector)| vector.length()).fold(0.0, f64::max);
-    if !(largest.is_finite() && largest > 0.0) {
-        return;
-    }
-    let metres_per_unit = metres_per_unit(largest, &stage.camera, stage.input.viewport);
+    let scale = scale(stage, vectors.iter().map(|(_, vector)| *vector));
+    add_at(stage, list, quantity, vectors, scale);
+}
+
+/// As [`add`], at a scale.
+pub(super) fn add_at(
+    stage: &Stage<'_>,
+    list: &mut DrawList,
+    quantity: &Quantity,
+    vectors: &[(DVec3, DVec3)],
+    scale: Option<f64>,
+) {
+    add_arrows(stage, list, quantity, vectors, (scale, 0.0));
+}
+
+/// As [`add_at`], with arrows that end at their places.
+pub(super) fn add_ending(
+    stage: &Stage<'_>,
+    list: &mut DrawList,
+    quantity: &Quantity,
+    vectors: &[(DVec3, DVec3)],
+    scale: Option<f64>,
+) {
+    add_arrows(stage, list, quantity, vectors, (scale, 1.0));
+}
+
+/// `back`: how much of an arrow lies before its place.
+fn add_arrows(
+    stage: &Stage<'_>,
+    list: &mut DrawList,
+    quantity: &Quantity,
+    vectors: &[(DVec3, DVec3)],
+    (scale, back): (Option<f64>, f64),
+) {
+    let Some(metres_per_unit) = scale else { return };
     for (place, vector) in vectors.iter().take(MOST) {
         let Some(direction) = vector.try_normalize() else { continue };
         let shortest = SHORTEST * stage.metres_per_point(*place);
-        let length = (vector.length() * metres_per_unit).max(shortest);
-        let (from, to) = (list.local(*place), list.local(*place + direction * length));
+        let arrow = direction * (vector.length() * metres_per_unit).max(shortest);
+        let start = *place - back * arrow;
+        let (from, to) = (list.local(start), list.local(start + arrow));
         list.arrows.push(Arrow { from, to, color: quantity.color, width: 2.0 });
     }
     let Quantity { name, unit, color } = quantity;

@@ -1,13 +1,14 @@
-//! The Δt being looked at, stretched to the width of the views: each event at its own time.
+//! The Δt being looked at, stretched to the width of the window: each event at its own time, also those to come that are
+//! recorded. A click goes to an event, or to the time between two.
 
 use std::sync::Arc;
 
 use egui::{Align2, FontId, Pos2, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
-use super::colors::{Tones, color32, tones};
-use super::context::{AppContext, Message};
-use super::numbers::significant;
 use crate::editor::Action;
+use crate::gui::colors::{Tones, color32, tones};
+use crate::gui::context::{AppContext, Message};
+use crate::gui::numbers::significant;
 use crate::record::{EventRow, Frame};
 use crate::sim::{BodyRef, EventKind};
 
@@ -16,6 +17,8 @@ pub const HEIGHT: f32 = 30.0;
 /// How near the pointer must be to an event, points.
 const REACH: f32 = 6.0;
 
+/// Events of one Δt that are drawn at all.
+const MOST_EVENTS: usize = 20_000;
 /// Events up to which each has its mark.
 const ALL_DRAWN: usize = 1000;
 /// Places along the line that are told apart where there are more.
@@ -23,7 +26,8 @@ const PLACES_PER_POINT: f32 = 1.0;
 
 pub fn show(ui: &mut Ui, context: &AppContext<'_>) {
     let tones = tones(ui);
-    let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click());
+    let size = vec2(ui.available_width(), HEIGHT);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Group, true, "Events in this Δt"));
     let painter = ui.painter_at(rect);
     painter.rect_filled(rect, 0.0, tones.heading);
@@ -36,26 +40,50 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>) {
     };
     let axis = Axis { line: axis_rect(ui, rect, frame, (from, to), &small, tones), from, to };
     axis.draw(ui, frame, tones);
-    let hovered = response.hover_pos().and_then(|at| axis.nearest(frame, at));
-    let largest = frame.events.iter().map(|row| row.event.impulse).fold(0.0, f64::max);
-    let shown = context.session.shown_event().and_then(|shown| frame.event(shown.event.seq));
-    for event in axis.marks(&frame.events).into_iter().chain(shown).chain(hovered) {
-        let chosen = context.session.shown_event().is_some_and(|shown| shown.event.seq == event.event.seq);
+    let events = events_between(frame, from, to);
+    let hovered = response.hover_pos().and_then(|at| axis.nearest(&events, at));
+    let largest = events.iter().map(|row| row.event.impulse).fold(0.0, f64::max);
+    let shown = context.session.shown_event().filter(|shown| events.contains(shown));
+    for event in axis.marks(&events).into_iter().chain(shown).chain(hovered) {
+        let chosen = shown.is_some_and(|shown| shown.event.seq == event.event.seq);
         let marked = hovered.is_some_and(|hovered| hovered.event.seq == event.event.seq);
-        let color = if chosen || marked { color32(context.palette().highlight) } else { tones.strong };
+        let color = match () {
+            () if chosen || marked => color32(context.palette().highlight),
+            () if event.event.seq > frame.event_count => tones.weak,
+            () => tones.strong,
+        };
         axis.mark(ui, largest, event, color, chosen || marked);
     }
-    let Some(event) = hovered else { return };
-    let event = event.clone();
-    if response.clicked() {
-        let keys = [Some(event.a_key), event.b_key].into_iter().flatten().collect();
-        context.outbox.act(Action::Select(keys));
-        context.outbox.act(Action::ShowEvent(Some(event.clone())));
+    answer(context, &response, &axis, hovered);
+    let text = match (hovered, response.hover_pos()) {
+        (Some(event), _) => describe(context, event),
+        (None, Some(at)) => format!("t = {:.9} s", axis.time(at.x)),
+        (None, None) => return,
+    };
+    response.on_hover_text_at_pointer(text);
+}
+
+/// The recorded events of a Δt; of very many the first.
+fn events_between(frame: &Frame, from: f64, to: f64) -> Vec<Arc<EventRow>> {
+    let first = frame.ledger.count_before(from);
+    let until = frame.ledger.count_until(to.min(frame.recorded.to));
+    frame.ledger.iter_from(first).take(until.saturating_sub(first).min(MOST_EVENTS)).cloned().collect()
+}
+
+/// A click goes to an event, a double click shows its place large; elsewhere a click or a drag goes to that time.
+fn answer(context: &AppContext<'_>, response: &egui::Response, axis: &Axis, hovered: Option<&Arc<EventRow>>) {
+    match hovered {
+        Some(event) if response.clicked() => context.outbox.act(Action::GoToEvent(event.event.seq)),
+        _ if response.clicked() || response.dragged() => {
+            if let Some(at) = response.interact_pointer_pos() {
+                context.outbox.act(Action::Seek(axis.time(at.x).min(context.session.frame().recorded.to)));
+            }
+        }
+        _ => {}
     }
-    if response.double_clicked() {
+    if let Some(event) = hovered.filter(|_| response.double_clicked()) {
         context.outbox.send(Message::FramePlace(event.event.point));
     }
-    response.on_hover_text_at_pointer(describe(context, &event));
 }
 
 /// Writes what the Δt is at both ends, and returns the room between.
@@ -115,6 +143,11 @@ impl Axis {
         self.line.left() + self.line.width() * share as f32
     }
 
+    fn time(&self, x: f32) -> f64 {
+        let share = ((x - self.line.left()) / self.line.width().max(1.0)).clamp(0.0, 1.0);
+        self.from + (self.to - self.from) * f64::from(share)
+    }
+
     /// The line, and how far the Δt is gone through.
     fn draw(&self, ui: &Ui, frame: &Frame, tones: Tones) {
         let painter = ui.painter();
@@ -172,9 +205,9 @@ impl Axis {
         }
     }
 
-    fn nearest<'a>(&self, frame: &'a Frame, at: Pos2) -> Option<&'a Arc<EventRow>> {
+    fn nearest<'a>(&self, rows: &'a [Arc<EventRow>], at: Pos2) -> Option<&'a Arc<EventRow>> {
         let distance = |row: &EventRow| (self.x(row.event.time) - at.x).abs();
-        let near = frame.events.iter().filter(|row| distance(row) < REACH);
+        let near = rows.iter().filter(|row| distance(row) < REACH);
         near.min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
 }
@@ -182,7 +215,7 @@ impl Axis {
 fn describe(context: &AppContext<'_>, row: &EventRow) -> String {
     let event = &row.event;
     let kind = event.kind.name().replace('_', " ");
-    let bodies = super::events::bodies(context, row);
+    let bodies = crate::gui::ledger::bodies(context, row);
     let impulse = significant(event.impulse, 6);
     format!("{} {kind}: {bodies}\nt = {:.9} s, {impulse} N·s", event.seq, event.time)
 }
@@ -215,9 +248,8 @@ mod tests {
             event,
             a_key: NodeKey(1),
             b_key: Some(NodeKey(2)),
-            a_label: String::new(),
-            b_label: String::new(),
-            dt_index: 1,
+            a_label: Arc::default(),
+            b_label: Arc::default(),
         })
     }
 

@@ -1,0 +1,181 @@
+//! The ledger: every recorded event of the run. A click goes to the event and selects its bodies, a double click shows its
+//! place large, a click on a title sorts.
+
+mod columns;
+mod filter;
+mod listed;
+
+use std::fmt::Write as _;
+use std::sync::Arc;
+
+use egui::{RichText, Sense, Ui};
+use egui_extras::{Column, TableBuilder, TableRow};
+
+use super::colors::tones;
+use super::context::{AppContext, Message};
+use super::theme::ROW_HEIGHT;
+use super::widgets::{cell, mono};
+use crate::editor::Action;
+use crate::record::EventRow;
+use columns::{BODIES, COLUMNS, KIND, joined};
+use filter::FilterBar;
+use listed::{Listed, Order};
+
+pub use columns::bodies;
+
+/// Keeps what is listed.
+#[derive(Default)]
+pub struct LedgerPanel {
+    bar: FilterBar,
+    order: Order,
+    listed: Listed,
+    /// The event shown when the list was scrolled to it last.
+    scrolled_to: Option<u64>,
+}
+
+impl LedgerPanel {
+    pub fn show(&mut self, ui: &mut Ui, context: &AppContext<'_>) {
+        let frame = context.session.frame();
+        if frame.ledger.is_empty() {
+            ui.add_space(8.0);
+            ui.label(RichText::new(what_to_do(context)).color(tones(ui).weak));
+            return;
+        }
+        self.bar.show(ui, context);
+        if self.listed.look(&frame.ledger, &self.bar.wanted(context), self.order) {
+            ui.ctx().request_repaint();
+        }
+        self.table(ui, context);
+    }
+
+    /// What the row of tabs says of it.
+    pub fn title(context: &AppContext<'_>) -> String {
+        format!("Events ({})", super::numbers::count(context.session.frame().ledger.len() as u64))
+    }
+
+    fn table(&mut self, ui: &mut Ui, context: &AppContext<'_>) {
+        let ledger = &context.session.frame().ledger;
+        let mut table = TableBuilder::new(ui)
+            .id_salt("ledger")
+            .striped(true)
+            .sense(Sense::click())
+            // a low panel shows few rows, not a list that runs out of it
+            .min_scrolled_height(0.0)
+            .auto_shrink(false);
+        for column in &COLUMNS {
+            table = table.column(Column::initial(column.width).resizable(true).clip(true));
+        }
+        if let Some(row) = self.row_to_scroll_to(context) {
+            table = table.scroll_to_row(row, None);
+        }
+        let (order, listed) = (self.order, &self.listed);
+        let mut chosen = None;
+        table
+            .header(ROW_HEIGHT, |mut header| {
+                for (nth, column) in COLUMNS.iter().enumerate() {
+                    header.col(|ui| chosen = title(ui, nth, order).or(chosen));
+                    let _ = column;
+                }
+            })
+            .body(|body| {
+                body.rows(ROW_HEIGHT, listed.len(), |mut row| {
+                    if let Some(event) = listed.row(ledger, row.index()) {
+                        show_row(&mut row, context, event);
+                    }
+                });
+            });
+        self.order = chosen.unwrap_or(self.order);
+    }
+
+    /// The row of the event shown, once for every one.
+    fn row_to_scroll_to(&mut self, context: &AppContext<'_>) -> Option<usize> {
+        let frame = context.session.frame();
+        let event = frame.event_count;
+        if self.scrolled_to.replace(event) == Some(event) {
+            return None;
+        }
+        Some(self.listed.place_of(&frame.ledger, event)?.saturating_sub(1))
+    }
+
+    /// The rows listed as text with tabs, all digits.
+    pub fn as_text(&self, context: &AppContext<'_>) -> String {
+        let mut text = COLUMNS.iter().map(|column| column.name).collect::<Vec<_>>().join("\t") + "\n";
+        for row in self.listed.rows(&context.session.frame().ledger) {
+            let cells = COLUMNS.iter().map(|column| (column.full)(context, row));
+            // writing to a string cannot fail
+            let _ = writeln!(text, "{}", cells.collect::<Vec<_>>().join("\t"));
+        }
+        text
+    }
+}
+
+fn what_to_do(context: &AppContext<'_>) -> &'static str {
+    let frame = context.session.frame();
+    if frame.is_at_start() {
+        "No events yet. Step forward (.) or go to the next event (N)."
+    } else if frame.stepped.is_some() {
+        "No events so far: contacts of stepped bodies are none. The overlay Force chains shows them."
+    } else {
+        "No events so far. Next event (N) goes on to one."
+    }
+}
+
+/// The title of a column; a click on it changes the order of the rows.
+fn title(ui: &mut Ui, nth: usize, order: Order) -> Option<Order> {
+    let column = COLUMNS.get(nth)?;
+    let arrow = match order {
+        Order { column, falling } if column == nth => {
+            if falling {
+                " ↓"
+            } else {
+                " ↑"
+            }
+        }
+        _ => "",
+    };
+    let text = RichText::new(format!("{}{arrow}", column.title)).small().weak();
+    if column.key.is_none() {
+        ui.label(text).on_hover_text(column.help);
+        return None;
+    }
+    let response = ui.add(egui::Label::new(text).sense(Sense::click()));
+    let help = format!("{}\nClick: sort by it; again: the other way round", column.help);
+    let clicked = response.on_hover_text(help).clicked();
+    clicked.then(|| Order { column: nth, falling: order.column == nth && !order.falling })
+}
+
+fn show_row(row: &mut TableRow<'_, '_>, context: &AppContext<'_>, event: &Arc<EventRow>) {
+    let frame = context.session.frame();
+    let is_shown = context.session.shown_event().is_some_and(|shown| shown.event.seq == event.event.seq);
+    let is_to_come = event.event.seq > frame.event_count;
+    row.set_selected(is_shown);
+    for (nth, column) in COLUMNS.iter().enumerate() {
+        let text = (column.text)(context, event);
+        let help = help(nth, event, &text);
+        let text = if matches!(nth, KIND | BODIES) { RichText::new(text) } else { mono(text) };
+        cell(row, if is_to_come { text.weak() } else { text }, &help);
+    }
+    let response = row.response();
+    if response.clicked() {
+        let act = if is_shown { Action::ShowEvent(None) } else { Action::GoToEvent(event.event.seq) };
+        context.outbox.act(act);
+    }
+    if response.double_clicked() {
+        context.outbox.act(Action::GoToEvent(event.event.seq));
+        context.outbox.send(Message::FramePlace(event.event.point));
+    }
+}
+
+fn help(nth: usize, event: &EventRow, text: &str) -> String {
+    let labels = joined(&event.a_label, &event.b_label);
+    match (nth, event.event.row_in_group) {
+        (KIND, [row, of]) if of > 1 => format!(
+            "{}\nContact {row} of {of} of impact group {}, resolved together",
+            event.event.kind.meaning(),
+            event.event.group
+        ),
+        (KIND, _) => event.event.kind.meaning().to_owned(),
+        (BODIES, _) if text != labels => labels,
+        _ => String::new(),
+    }
+}

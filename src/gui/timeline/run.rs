@@ -1,0 +1,275 @@
+//! The whole run: what is recorded and what was dropped, how many events there are where, edits, bookmarks, and what is
+//! shown now. A click or a drag goes to a time, the wheel zooms, the right button or Ctrl moves what is shown, Shift marks a
+//! range that playing repeats.
+
+use egui::{Align2, Color32, FontId, Key, PointerButton, Pos2, Rect, Response, Role, Sense, Stroke, Ui};
+use egui::{WidgetInfo, pos2, vec2};
+
+use super::axis::Axis;
+use super::bookmarks;
+use crate::editor::{Action, SessionCommand};
+use crate::gui::colors::{Tones, color32, tones};
+use crate::gui::context::AppContext;
+use crate::gui::numbers::significant;
+use crate::record::Frame;
+
+pub(super) const HEIGHT: f32 = 44.0;
+
+/// Room for what is written at the right, points.
+const RIGHT: f32 = 104.0;
+const LEFT: f32 = 12.0;
+
+/// Smallest distance of two marks of Δt, points.
+const TICKS_APART: f64 = 5.0;
+
+/// What part of the run is shown.
+#[derive(Default)]
+pub(super) struct RunLine {
+    /// s; `None` for all of it.
+    part: Option<(f64, f64)>,
+    /// Where a range began that is being drawn, s.
+    range_from: Option<f64>,
+    bookmarks: bookmarks::Flags,
+}
+
+impl RunLine {
+    pub fn show(&mut self, ui: &mut Ui, context: &AppContext<'_>) {
+        let size = vec2(ui.available_width(), HEIGHT);
+        let (rect, response) =
+            ui.allocate_exact_size(size, Sense::click_and_drag().union(Sense::focusable_noninteractive()));
+        let frame = context.session.frame();
+        response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, "Timeline of the run"));
+        let tones = tones(ui);
+        ui.painter_at(rect).rect_filled(rect, 0.0, tones.heading);
+        let whole = whole(frame);
+        let Some(whole) = whole else {
+            let text =
+                "The run appears here once it has begun: step (.), play (Space) or go to the next event (N)";
+            let at = rect.left_center() + vec2(10.0, 0.0);
+            ui.painter().text(at, Align2::LEFT_CENTER, text, FontId::proportional(11.0), tones.weak);
+            return;
+        };
+        let axis = self.axis(rect, whole);
+        draw(ui, context, &axis, tones);
+        write_memory(ui, rect, frame, tones);
+        self.bookmarks.show(ui, context, &axis);
+        self.answer(context, &response, &axis, whole, ui);
+        if let Some(at) = response.hover_pos().filter(|at| axis.line.x_range().contains(at.x)) {
+            response.on_hover_text_at_pointer(describe(frame, &axis, at));
+        }
+    }
+
+    fn axis(&mut self, rect: Rect, whole: (f64, f64)) -> Axis {
+        let line = Rect::from_min_max(
+            pos2(rect.left() + LEFT, rect.top() + 3.0),
+            pos2((rect.right() - RIGHT).max(rect.left() + 2.0 * LEFT), rect.bottom() - 14.0),
+        );
+        self.part = self.part.filter(|(from, to)| *from < whole.1 && *to > whole.0 && from < to);
+        let (from, to) = self.part.unwrap_or(whole);
+        Axis { line, from, to }
+    }
+
+    fn answer(
+        &mut self,
+        context: &AppContext<'_>,
+        response: &Response,
+        axis: &Axis,
+        whole: (f64, f64),
+        ui: &Ui,
+    ) {
+        if response.clicked() {
+            response.request_focus();
+        }
+        let (modifiers, scroll) = ui.input(|input| (input.modifiers, input.smooth_scroll_delta()));
+        if let Some(at) = response.hover_pos().filter(|_| scroll.y != 0.0) {
+            let factor = libm::exp(-0.005 * f64::from(scroll.y));
+            self.part = Some(axis.zoomed(factor, at.x, whole)).filter(|part| *part != whole);
+        }
+        let pans = response.dragged_by(PointerButton::Secondary)
+            || response.dragged_by(PointerButton::Middle)
+            || (response.dragged_by(PointerButton::Primary) && modifiers.command);
+        if pans {
+            self.part = Some(axis.panned(response.drag_delta().x, whole)).filter(|part| *part != whole);
+        }
+        if response.double_clicked() {
+            self.part = None;
+        }
+        if let Some(at) = response.interact_pointer_pos().filter(|_| !pans) {
+            self.point(context, response, axis.time(at.x), modifiers.shift);
+        } else {
+            self.range_from = None;
+        }
+        if response.has_focus() {
+            keys(ui, context, modifiers);
+        }
+    }
+
+    /// The pointer is held at a time.
+    fn point(&mut self, context: &AppContext<'_>, response: &Response, time: f64, shift: bool) {
+        if response.secondary_clicked() || !(response.clicked() || response.is_pointer_button_down_on()) {
+            return;
+        }
+        if shift && self.range_from.is_none() && response.drag_started() {
+            self.range_from = Some(time);
+        }
+        match self.range_from {
+            Some(from) => {
+                let range = (from.min(time), from.max(time));
+                context.outbox.act(Action::SetRange((range.0 < range.1).then_some(range)));
+            }
+            None if shift && response.clicked() => context.outbox.act(Action::SetRange(None)),
+            None if shift => {}
+            None if response.clicked() || response.dragged() => {
+                context.outbox.act(Action::Seek(time.min(context.session.frame().recorded.to)));
+            }
+            None => {}
+        }
+    }
+}
+
+/// The arrow keys step while the timeline has the keyboard: by Δt, with Shift by events.
+fn keys(ui: &Ui, context: &AppContext<'_>, modifiers: egui::Modifiers) {
+    let pressed = |key: Key| ui.input(|input| input.key_pressed(key));
+    let command = match (pressed(Key::ArrowLeft), pressed(Key::ArrowRight), modifiers.shift) {
+        (true, _, false) => SessionCommand::StepBack,
+        (true, _, true) => SessionCommand::EventBack,
+        (_, true, false) => SessionCommand::StepForward,
+        (_, true, true) => SessionCommand::NextEvent,
+        _ => return,
+    };
+    context.outbox.command(command);
+}
+
+/// From the start to the last time that is recorded; `None` before the first step.
+fn whole(frame: &Frame) -> Option<(f64, f64)> {
+    let end = frame.recorded.to.max(frame.step.map_or(0.0, |(_, end)| end));
+    (end > 0.0).then_some((0.0, end))
+}
+
+fn draw(ui: &Ui, context: &AppContext<'_>, axis: &Axis, tones: Tones) {
+    let frame = context.session.frame();
+    let painter = ui.painter().with_clip_rect(axis.line.expand2(vec2(LEFT, 20.0)));
+    let bottom = axis.line.bottom();
+    let clamped = |time: f64| axis.x(time).clamp(axis.line.left(), axis.line.right());
+    let known = clamped(frame.recorded.from)..=clamped(frame.recorded.to);
+    if let Some((from, to)) = context.session.travel().range() {
+        let rect = Rect::from_x_y_ranges(clamped(from)..=clamped(to), axis.line.y_range());
+        painter.rect_filled(rect, 0.0, tones.accent.gamma_multiply(0.25));
+    }
+    density(&painter, frame, axis, tones.strong.gamma_multiply(0.55));
+    painter.hline(axis.line.x_range(), bottom, Stroke::new(1.0, tones.line));
+    painter.hline(known, bottom, Stroke::new(2.0, tones.accent));
+    ticks(&painter, frame, axis, tones.weak);
+    scale(&painter, axis, tones.weak);
+    for time in &frame.recorded.edits {
+        let x = axis.x(*time);
+        painter.vline(x, axis.line.y_range(), Stroke::new(1.0, tones.warning));
+    }
+    dropped(&painter, frame, axis, tones);
+    let now = clamped(frame.time);
+    painter.vline(
+        now,
+        axis.line.top()..=bottom + 3.0,
+        Stroke::new(2.0, color32(context.palette().highlight)),
+    );
+}
+
+/// How many events there are in each stretch of a point, as bars whose heights grow with the logarithm.
+fn density(painter: &egui::Painter, frame: &Frame, axis: &Axis, color: Color32) {
+    if frame.ledger.is_empty() {
+        return;
+    }
+    let columns = axis.line.width().max(1.0) as usize;
+    let before = |column: usize| {
+        let time = axis.from + (axis.to - axis.from) * column as f64 / columns as f64;
+        frame.ledger.count_before(time)
+    };
+    let mut counts = Vec::with_capacity(columns);
+    let mut last = before(0);
+    for column in 1..=columns {
+        let next = before(column);
+        counts.push(next - last);
+        last = next;
+    }
+    let height = |count: usize| libm::log1p(count as f64);
+    let most = counts.iter().copied().max().map_or(1.0, height).max(1.0);
+    for (column, count) in counts.into_iter().enumerate().filter(|(_, count)| *count > 0) {
+        let x = axis.line.left() + column as f32 + 0.5;
+        let length = (axis.line.height() - 4.0) * (height(count) / most) as f32;
+        painter.vline(x, axis.line.bottom() - length.max(2.0)..=axis.line.bottom(), Stroke::new(1.0, color));
+    }
+}
+
+/// Where the Δt end, if that can be told apart.
+fn ticks(painter: &egui::Painter, frame: &Frame, axis: &Axis, color: Color32) {
+    let Some((start, end)) = frame.step else { return };
+    let length = end - start;
+    if length < TICKS_APART * axis.scale() {
+        return;
+    }
+    let first = ((axis.from - start) / length).ceil();
+    let count = ((axis.to - axis.from) / length).min(10_000.0) as u32;
+    for nth in 0..=count {
+        let time = start + (first + f64::from(nth)) * length;
+        if time <= axis.to && time <= frame.recorded.to.max(end) {
+            let bottom = axis.line.bottom();
+            painter.vline(axis.x(time), bottom - 3.0..=bottom, Stroke::new(1.0, color));
+        }
+    }
+}
+
+/// Times below the line.
+fn scale(painter: &egui::Painter, axis: &Axis, color: Color32) {
+    let (marks, step) = axis.marks();
+    let digits = 3 + (libm::log10((axis.to.abs() / step).max(1.0))) as usize;
+    for time in marks {
+        let at = pos2(axis.x(time), axis.line.bottom());
+        painter.vline(at.x, at.y..=at.y + 3.0, Stroke::new(1.0, color));
+        let text = format!("{} s", significant(time, digits));
+        painter.text(at + vec2(0.0, 2.0), Align2::CENTER_TOP, text, FontId::proportional(9.5), color);
+    }
+}
+
+/// Hatches what was dropped to stay within the memory.
+fn dropped(painter: &egui::Painter, frame: &Frame, axis: &Axis, tones: Tones) {
+    let end = axis.x(frame.recorded.from).min(axis.line.right());
+    if frame.recorded.from <= 0.0 || end <= axis.line.left() {
+        return;
+    }
+    let mut x = axis.line.left();
+    while x < end {
+        let line = [pos2(x, axis.line.bottom()), pos2((x + 6.0).min(end), axis.line.top())];
+        painter.line_segment(line, Stroke::new(1.0, tones.line));
+        x += 6.0;
+    }
+}
+
+/// How much memory the recording takes.
+fn write_memory(ui: &Ui, rect: Rect, frame: &Frame, tones: Tones) {
+    let mib = |bytes: usize| bytes as f64 / f64::from(1 << 20);
+    let (used, budget) = (mib(frame.recorded.bytes), mib(frame.recorded.budget));
+    let text = format!("{} of {} MiB", significant(used, 2), significant(budget, 4));
+    let color = if used > 0.8 * budget { tones.warning } else { tones.weak };
+    let at = pos2(rect.right() - 8.0, rect.top() + 10.0);
+    ui.painter().text(at, Align2::RIGHT_CENTER, text, FontId::proportional(10.0), color);
+    let events = format!("{} events", crate::gui::numbers::count(frame.ledger.len() as u64));
+    ui.painter().text(
+        at + vec2(0.0, 13.0),
+        Align2::RIGHT_CENTER,
+        events,
+        FontId::proportional(10.0),
+        tones.weak,
+    );
+}
+
+fn describe(frame: &Frame, axis: &Axis, at: Pos2) -> String {
+    let time = axis.time(at.x);
+    let near = 4.0 * axis.scale();
+    let count = frame.ledger.count_before(time + near) - frame.ledger.count_before(time - near);
+    let mut text = format!("t = {} s, {count} events near", significant(time, 7));
+    if time < frame.recorded.from {
+        text += "\nDropped to stay within the memory that recordings may take";
+    }
+    text += "\nWheel: zoom. Right button: move. Shift: range that playing repeats. Double click: all";
+    text
+}

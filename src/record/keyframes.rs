@@ -1,0 +1,121 @@
+//! Copies of the simulation at some moments of a run, from which it goes on with the same bits.
+
+use super::moment::Moment;
+use crate::sim::{Simulation, Snapshot};
+
+/// About what one dynamic body takes in a snapshot, bytes: its columns, predictions and tiles.
+const BODY_SIZE: usize = 1024;
+/// Segments to simulate again at most between two keyframes, for a scene of few bodies.
+const SEGMENTS_APART: u64 = 500;
+
+#[derive(Debug)]
+pub(super) struct Keyframe {
+    pub(super) at: Moment,
+    pub(super) snapshot: Snapshot,
+    /// [`Simulation::hash`] there.
+    pub(super) hash: u64,
+    segments: u64,
+    /// Edits that it contains.
+    pub(super) edits: usize,
+    /// Right after an edit: what is looked up after it needs its bodies and forces, so that it is never thinned out.
+    after_edit: bool,
+}
+
+/// Keyframes in order, the first at the start of what is kept.
+#[derive(Debug, Default)]
+pub(super) struct Keyframes {
+    list: Vec<Keyframe>,
+    /// At the end of what is known, while the simulation is elsewhere.
+    head: Option<Box<Keyframe>>,
+}
+
+impl Keyframe {
+    pub(super) fn new(simulation: &Simulation, at: Moment, edits: usize) -> Self {
+        let segments = simulation.counters().segments;
+        let hash = simulation.hash();
+        Self { at, snapshot: simulation.snapshot(), hash, segments, edits, after_edit: false }
+    }
+
+    pub(super) fn after_edit(self) -> Self {
+        Self { after_edit: true, ..self }
+    }
+}
+
+impl Keyframes {
+    pub(super) fn push(&mut self, keyframe: Keyframe) {
+        self.list.push(keyframe);
+    }
+
+    /// Whether enough was simulated since the last one for another.
+    pub(super) fn is_due(&self, simulation: &Simulation) -> bool {
+        let apart = SEGMENTS_APART.max(2 * simulation.dynamic_count() as u64);
+        let segments = simulation.counters().segments;
+        self.list.last().is_none_or(|last| segments >= last.segments + apart)
+    }
+
+    /// The last one not after a moment.
+    pub(super) fn before(&self, moment: Moment) -> Option<&Keyframe> {
+        let head = self.head.as_deref().filter(|head| head.at.is_not_after(moment));
+        head.or_else(|| self.list.iter().rev().find(|key| key.at.is_not_after(moment)))
+    }
+
+    /// The one at a moment.
+    pub(super) fn at(&self, moment: Moment) -> Option<&Keyframe> {
+        self.before(moment).filter(|key| key.at == moment)
+    }
+
+    pub(super) fn head(&self) -> Option<&Keyframe> {
+        self.head.as_deref()
+    }
+
+    pub(super) fn set_head(&mut self, head: Keyframe) {
+        self.head = Some(Box::new(head));
+    }
+
+    pub(super) fn take_head(&mut self) -> Option<Box<Keyframe>> {
+        self.head.take()
+    }
+
+    pub(super) fn split_off(&mut self, at: Moment) -> Vec<Keyframe> {
+        let kept = self.list.partition_point(|key| key.at.is_not_after(at));
+        self.list.split_off(kept)
+    }
+
+    /// Drops those of an edit that is taken back.
+    pub(super) fn drop_after_edits(&mut self, edits: usize) {
+        self.list.retain(|key| key.edits <= edits);
+    }
+
+    pub(super) fn append(&mut self, rest: Vec<Keyframe>) {
+        self.list.extend(rest);
+    }
+
+    /// Drops every second one but those after edits, the first and the last; whether any was.
+    pub(super) fn thin(&mut self) -> bool {
+        let (before, last) = (self.list.len(), self.list.len().saturating_sub(1));
+        let mut index = 0;
+        self.list.retain(|key| {
+            index += 1;
+            index % 2 == 1 || index > last || key.after_edit
+        });
+        self.list.len() < before
+    }
+
+    /// Drops those before a time but the last of them, which is where going on from there begins; gives its moment.
+    pub(super) fn drop_before(&mut self, time: f64) -> Option<Moment> {
+        let old = self.list.partition_point(|key| key.at.time <= time);
+        self.list.drain(..old.saturating_sub(1));
+        self.list.first().map(|first| first.at)
+    }
+
+    /// Bytes that they take, about.
+    pub(super) fn bytes(&self) -> usize {
+        let of = |key: &Keyframe| BODY_SIZE * (key.snapshot.simulation().dynamic_count() + 8);
+        self.list.iter().chain(self.head.as_deref()).map(of).sum()
+    }
+
+    #[cfg(test)]
+    pub(super) fn exchange_first(&mut self, simulation: &Simulation) {
+        self.list[0].snapshot = simulation.snapshot();
+    }
+}

@@ -1,0 +1,248 @@
+//! The ledger of a whole run: every event with the names a person knows. Copies share their rows, so that a million of them
+//! go into a frame at the price of a few.
+
+use std::sync::Arc;
+
+use crate::scene::NodeKey;
+use crate::sim::{Event, EventKind, Simulation};
+
+/// One ledger row with the names a person knows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EventRow {
+    pub event: Event,
+    pub a_key: NodeKey,
+    pub b_key: Option<NodeKey>,
+    pub a_label: Arc<str>,
+    /// Empty for events of one body alone.
+    pub b_label: Arc<str>,
+}
+
+impl EventRow {
+    pub(super) fn new(simulation: &Simulation, event: &Event) -> Self {
+        Self {
+            event: *event,
+            a_key: simulation.key(event.a),
+            b_key: event.b.map(|b| simulation.key(b)),
+            a_label: simulation.shared_label(event.a),
+            b_label: event.b.map_or_else(Arc::default, |b| simulation.shared_label(b)),
+        }
+    }
+
+    /// Energy that the impact left the bodies with, less what they came with, J, ≤ 0 but for rounding: of an impulse J
+    /// along the normal ½ J (v⁻ + v⁺), with the normal speeds before and after.
+    pub fn energy_change(&self) -> Option<f64> {
+        let event = &self.event;
+        let is_impact = matches!(event.kind, EventKind::Impact | EventKind::Collapse);
+        is_impact.then(|| 0.5 * event.impulse * (event.vn_before + event.vn_after))
+    }
+
+    pub fn concerns(&self, key: NodeKey) -> bool {
+        self.a_key == key || self.b_key == Some(key)
+    }
+}
+
+/// Rows of one block: what a copy that is written to has to copy.
+const BLOCK: usize = 512;
+
+/// Rows in the order of their numbers, without a gap.
+#[derive(Clone, Debug, Default)]
+pub struct Ledger {
+    blocks: Vec<Arc<Vec<Arc<EventRow>>>>,
+    len: usize,
+}
+
+impl FromIterator<EventRow> for Ledger {
+    /// Rows in the order of their numbers, without a gap.
+    fn from_iter<I: IntoIterator<Item = EventRow>>(rows: I) -> Self {
+        let mut ledger = Self::default();
+        rows.into_iter().for_each(|row| ledger.push(row));
+        ledger
+    }
+}
+
+impl Ledger {
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// Number of the first row kept; 1 while nothing was dropped, and for an empty ledger.
+    pub fn first(&self) -> u64 {
+        self.at(0).map_or(1, |row| row.event.seq)
+    }
+
+    /// The n-th row that is kept.
+    pub fn at(&self, index: usize) -> Option<&Arc<EventRow>> {
+        self.blocks.get(index / BLOCK)?.get(index % BLOCK)
+    }
+
+    /// The row of an event's number.
+    pub fn get(&self, number: u64) -> Option<&Arc<EventRow>> {
+        self.at(self.index_of(number)?)
+    }
+
+    /// Where the row of an event's number lies, or would.
+    fn index_of(&self, number: u64) -> Option<usize> {
+        usize::try_from(number.checked_sub(self.first())?).ok()
+    }
+
+    /// Rows from the n-th that is kept on.
+    pub fn iter_from(&self, index: usize) -> impl DoubleEndedIterator<Item = &Arc<EventRow>> {
+        let whole = self.blocks.get(index / BLOCK..).unwrap_or_default();
+        whole.iter().enumerate().flat_map(move |(nth, block)| {
+            let from = if nth == 0 { index % BLOCK } else { 0 };
+            block.get(from..).unwrap_or_default()
+        })
+    }
+
+    /// How many rows happened before a time, or not after it.
+    pub fn count_before(&self, time: f64) -> usize {
+        self.count_while(|row| row.event.time < time)
+    }
+
+    pub fn count_until(&self, time: f64) -> usize {
+        self.count_while(|row| row.event.time <= time)
+    }
+
+    /// How many of the first rows fulfil what no later one does after the first that does not.
+    fn count_while(&self, holds: impl Fn(&EventRow) -> bool) -> usize {
+        let before = self.blocks.partition_point(|block| block.last().is_some_and(|row| holds(row)));
+        let inside = self.blocks.get(before).map_or(0, |block| block.partition_point(|row| holds(row)));
+        (before * BLOCK + inside).min(self.len)
+    }
+
+    /// Number of the last event not after a time; 0, or that of the last dropped, before the first.
+    pub(super) fn number_until(&self, time: f64) -> u64 {
+        self.first() + self.count_until(time) as u64 - 1
+    }
+
+    pub(super) fn push(&mut self, row: EventRow) {
+        if self.blocks.last().is_none_or(|block| block.len() == BLOCK) {
+            self.blocks.push(Arc::new(Vec::with_capacity(BLOCK)));
+        }
+        if let Some(block) = self.blocks.last_mut() {
+            Arc::make_mut(block).push(Arc::new(row));
+            self.len += 1;
+        }
+    }
+
+    /// Takes the rows after an event.
+    pub(super) fn split_off(&mut self, event: u64) -> Vec<Arc<EventRow>> {
+        let kept =
+            usize::try_from((event + 1).saturating_sub(self.first())).unwrap_or(usize::MAX).min(self.len);
+        let rows = self.iter_from(kept).cloned().collect();
+        self.blocks.truncate(kept.div_ceil(BLOCK));
+        if let Some(block) = self.blocks.last_mut()
+            && !kept.is_multiple_of(BLOCK)
+        {
+            Arc::make_mut(block).truncate(kept % BLOCK);
+        }
+        self.len = kept;
+        rows
+    }
+
+    pub(super) fn append(&mut self, rows: Vec<Arc<EventRow>>) {
+        for row in rows {
+            self.push(Arc::unwrap_or_clone(row));
+        }
+    }
+
+    /// Drops whole blocks of rows before a time.
+    pub(super) fn drop_before(&mut self, time: f64) {
+        let old = |block: &Arc<Vec<Arc<EventRow>>>| block.last().is_some_and(|row| row.event.time < time);
+        let gone = self.blocks.partition_point(old).min(self.blocks.len().saturating_sub(1));
+        self.blocks.drain(..gone);
+        self.len -= gone * BLOCK;
+    }
+
+    /// Bytes that the rows take.
+    pub(super) fn bytes(&self) -> usize {
+        self.len * (size_of::<EventRow>() + 3 * size_of::<usize>())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by stopping")]
+
+    use super::*;
+    use crate::sim::BodyRef;
+
+    fn row(seq: u64) -> EventRow {
+        let event = Event {
+            seq,
+            time: (seq / 2) as f64,
+            kind: EventKind::Impact,
+            a: BodyRef::Dynamic(0),
+            b: None,
+            point: glam::DVec3::ZERO,
+            normal: glam::DVec3::X,
+            impulse: 2.0,
+            vn_before: -3.0,
+            vn_after: 1.0,
+            group: 0,
+            row_in_group: [0; 2],
+            bodies: 1,
+        };
+        EventRow { event, a_key: NodeKey(1), b_key: None, a_label: "1".into(), b_label: Arc::default() }
+    }
+
+    fn ledger(count: u64) -> Ledger {
+        (1..=count).map(row).collect()
+    }
+
+    #[test]
+    fn rows_are_found_by_number_and_time() {
+        let ledger = ledger(2000);
+        for seq in [1, 2, 511, 512, 513, 1024, 1025, 2000] {
+            assert_eq!(ledger.get(seq).unwrap().event.seq, seq);
+        }
+        assert!(ledger.get(0).is_none() && ledger.get(2001).is_none());
+        for time in [0.0, 1.0, 1.5, 255.0, 256.0, 999.0, 1000.0, 5000.0] {
+            let naive = (1..=2000).filter(|seq| (seq / 2) as f64 <= time).count();
+            assert_eq!(ledger.count_until(time), naive, "at {time}");
+            let naive = (1..=2000).filter(|seq| ((seq / 2) as f64) < time).count();
+            assert_eq!(ledger.count_before(time), naive, "before {time}");
+        }
+        assert_eq!(
+            ledger.iter_from(700).map(|row| row.event.seq).collect::<Vec<_>>(),
+            (701..=2000).collect::<Vec<_>>()
+        );
+    }
+
+    #[test]
+    fn a_copy_keeps_what_is_split_off_and_appended_again() {
+        for kept in [0, 1, 511, 512, 513, 1999, 2000] {
+            let mut ledger = ledger(2000);
+            let copy = ledger.clone();
+            let rest = ledger.split_off(kept);
+            assert_eq!((ledger.len() as u64, rest.len() as u64), (kept, 2000 - kept));
+            assert!(ledger.get(kept + 1).is_none());
+            assert_eq!(copy.len(), 2000);
+            ledger.append(rest);
+            let numbers = |ledger: &Ledger| ledger.iter_from(0).map(|row| row.event.seq).collect::<Vec<_>>();
+            assert_eq!(numbers(&ledger), numbers(&copy));
+        }
+    }
+
+    #[test]
+    fn what_is_dropped_leaves_the_numbers_of_the_others() {
+        let mut ledger = ledger(2000);
+        ledger.drop_before(600.0);
+        assert_eq!(ledger.first(), 1025);
+        assert_eq!(ledger.len(), 976);
+        assert_eq!(ledger.get(1500).unwrap().event.seq, 1500);
+        assert_eq!(ledger.number_until(0.0), 1024);
+    }
+
+    #[test]
+    fn the_energy_change_is_that_of_newtons_law() {
+        // 1 kg at 3 m/s against a wall that gives 1 m/s back: 0.5 (1 - 9) = -4 J with an impulse of 4 N s.
+        let mut one = row(1);
+        one.event.impulse = 4.0;
+        assert_eq!(one.energy_change(), Some(-4.0));
+    }
+}

@@ -1,0 +1,78 @@
+//! Moving through what is recorded, in both directions: only what is shown changes, by looking it up.
+
+use super::command::Of;
+use super::grid::StepGrid;
+use super::moment::Moment;
+use super::run::Run;
+use crate::sim::ContactState;
+
+impl Run {
+    pub(super) fn can_step_back(&self) -> bool {
+        self.recording.ticks.before(self.cursor).is_some()
+    }
+
+    /// Back to the beginning of the open Δt, or else of the last one; whether there was one.
+    pub(super) fn step_back(&mut self) -> bool {
+        let Some(tick) = self.recording.ticks.before(self.cursor) else { return false };
+        self.show(tick.at, tick.grid);
+        true
+    }
+
+    /// Back to the last event before the one shown that is one `of` what is asked for; the Δt around it is open then.
+    pub(super) fn event_back(&mut self, of: Of) {
+        // After the end of a Δt the last event is itself the one before.
+        let ledger = &self.recording.ledger;
+        let shown = ledger.get(self.cursor.event).map(|row| row.event.time);
+        let is_at_event = shown == Some(self.cursor.time) && self.grid.open.is_some();
+        let last = self.cursor.event.saturating_sub(u64::from(is_at_event));
+        let mut earlier = (ledger.first()..=last).rev().filter_map(|number| ledger.get(number));
+        match earlier.find(|row| of.holds(row)).map(|row| row.event.seq) {
+            Some(number) => self.go_to_event(number),
+            None => self.message = Some("there is no recorded event before this one".into()),
+        }
+    }
+
+    /// To a recorded event, with the Δt around it open.
+    pub(super) fn go_to_event(&mut self, number: u64) {
+        let Some(time) = self.recording.ledger.get(number).map(|row| row.event.time) else {
+            self.message = Some(format!("event {number} is not recorded"));
+            return;
+        };
+        let moment = Moment::right_after(number, time);
+        self.show(moment, self.grid_around_event(moment));
+    }
+
+    /// To a time, if it is recorded; whether it is.
+    pub(super) fn seek(&mut self, time: f64) -> bool {
+        if time > self.recording.end.time {
+            return false;
+        }
+        let moment = self.recording.moment_at(time);
+        self.show(moment, self.grid_at(moment));
+        true
+    }
+
+    pub(super) fn show(&mut self, moment: Moment, grid: StepGrid) {
+        (self.cursor, self.grid) = (moment, grid);
+        self.message = None;
+    }
+
+    fn grid_around_event(&self, moment: Moment) -> StepGrid {
+        let Some(before) = self.recording.ticks.before_event(moment) else { return self.grid_at(moment) };
+        match self.recording.ticks.around(before.at.time).1 {
+            Some(after) => after.grid.reopened(before.at.time, after.at.time),
+            None => self.recording.end_grid,
+        }
+    }
+
+    /// Whether all bodies lie still at what is shown.
+    pub(super) fn is_at_rest(&self) -> bool {
+        let bodies = self.simulation.dynamic_bodies();
+        let rests = |state| state == ContactState::Rest;
+        if self.is_settled() {
+            return bodies.filter_map(|body| self.simulation.state(body)).all(|state| rests(state.contact));
+        }
+        let pieces = bodies.filter_map(|body| self.recording.piece(body, self.cursor));
+        pieces.map(|piece| piece.at(self.cursor.time)).all(|state| rests(state.contact))
+    }
+}

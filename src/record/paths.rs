@@ -1,0 +1,130 @@
+//! The ways of bodies around the moment shown, from their recorded motion: curves as they are, not lines between pictures.
+
+use glam::DVec3;
+
+use super::moment::Moment;
+use super::run::Run;
+use crate::scene::NodeKey;
+use crate::sim::{BodyRef, Piece};
+
+/// How much of the ways is wanted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathSpan {
+    /// Seconds of model time before and after the moment shown.
+    pub past: f64,
+    pub future: f64,
+}
+
+/// The way of one body as places on it, m.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodyPath {
+    pub key: NodeKey,
+    /// Up to the place of the moment shown, and from it.
+    pub past: Vec<DVec3>,
+    pub future: Vec<DVec3>,
+}
+
+/// Bodies whose ways are given; of more the first.
+const MOST_BODIES: usize = 300;
+/// Places on all ways together; of more the nearest to the moment shown.
+const MOST_PLACES: usize = 60_000;
+
+/// The angle that a way turns by between two places, radians: below what is seen as a corner.
+const TURN: f64 = 0.06;
+const MOST_PER_PIECE: f64 = 64.0;
+
+/// The ways of the bodies that are there at the moment shown.
+pub(super) fn paths(run: &Run, span: PathSpan) -> Vec<BodyPath> {
+    let now = run.cursor;
+    let bodies: Vec<BodyRef> = run.simulation.dynamic_bodies().take(MOST_BODIES).collect();
+    let most = MOST_PLACES / bodies.len().max(1);
+    let path = |body: &BodyRef| {
+        let mut past = places(run, *body, now.time - span.past.max(0.0), now.time);
+        let mut future = places(run, *body, now.time, now.time + span.future.max(0.0));
+        past.drain(..past.len().saturating_sub(most));
+        future.truncate(most);
+        BodyPath { key: run.simulation.key(*body), past, future }
+    };
+    bodies.iter().map(path).collect()
+}
+
+/// Places on a body's recorded way between two times.
+fn places(run: &Run, body: BodyRef, from: f64, to: f64) -> Vec<DVec3> {
+    let (from, to) = (from.max(run.recording.from().time), to.min(run.recording.end.time));
+    let mut pieces = run.recording.pieces(body, from, to).peekable();
+    let mut places = Vec::new();
+    while let Some(piece) = pieces.next() {
+        let end = pieces.peek().map_or(to, |next| next.start().min(to));
+        let start = piece.start().max(from);
+        if end >= start {
+            add_places(piece, start, end, &mut places);
+        }
+    }
+    places
+}
+
+/// Places that are closer where the way turns more.
+fn add_places(piece: &Piece, start: f64, end: f64, places: &mut Vec<DVec3>) {
+    let direction = |time: f64| piece.at(time).velocity.normalize_or_zero();
+    let [first, middle, last] = [start, 0.5 * (start + end), end].map(direction);
+    let turn = first.angle_between(middle) + middle.angle_between(last);
+    let parts = if turn.is_finite() { (turn / TURN).clamp(1.0, MOST_PER_PIECE).ceil() } else { 1.0 };
+    for nth in 0..=parts as u32 {
+        let place = piece.position(start + (end - start) * f64::from(nth) / parts);
+        if places.last() != Some(&place) {
+            places.push(place);
+        }
+    }
+}
+
+/// A body at an impact.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ImpactBody {
+    pub key: NodeKey,
+    /// Centre, m.
+    pub position: DVec3,
+    /// m/s.
+    pub before: DVec3,
+    pub after: DVec3,
+    /// Where it is at the start of the Δt and, if that is recorded, at its end, m.
+    pub at_start: DVec3,
+    pub at_end: Option<DVec3>,
+}
+
+/// Bodies of one impact that are shown.
+const MOST_AT_IMPACT: usize = 64;
+
+/// What the bodies of an event come with and leave with, while the moment right after it is shown.
+pub(super) fn at_impact(run: &Run) -> Vec<ImpactBody> {
+    let now = run.cursor;
+    let ledger = &run.recording.ledger;
+    let Some(row) = ledger.get(now.event).filter(|row| !now.is_over && row.event.time == now.time) else {
+        return Vec::new();
+    };
+    // The rows of an impact group are one impact.
+    let [nth, of] = row.event.row_in_group.map(u64::from);
+    let (first, last) = (row.event.seq - nth.saturating_sub(1), row.event.seq + of.saturating_sub(nth));
+    let mut bodies: Vec<BodyRef> = (first..=last)
+        .filter_map(|number| ledger.get(number))
+        .flat_map(|row| [Some(row.event.a), row.event.b].into_iter().flatten())
+        .filter(|body| matches!(body, BodyRef::Dynamic(_)))
+        .collect();
+    bodies.sort_unstable();
+    bodies.dedup();
+    let before = Moment::after_all(first - 1, now.time);
+    bodies.iter().take(MOST_AT_IMPACT).filter_map(|body| impact_body(run, *body, before)).collect()
+}
+
+fn impact_body(run: &Run, body: BodyRef, before: Moment) -> Option<ImpactBody> {
+    let (now, recording) = (run.cursor, &run.recording);
+    let (start, end) = run.grid.span()?;
+    let position = |time: f64| Some(recording.piece(body, recording.moment_at(time))?.position(time));
+    Some(ImpactBody {
+        key: run.simulation.key(body),
+        position: recording.piece(body, now)?.position(now.time),
+        before: recording.piece(body, before)?.at(now.time).velocity,
+        after: recording.piece(body, now)?.at(now.time).velocity,
+        at_start: position(start)?,
+        at_end: if recording.knows(end) { position(end) } else { None },
+    })
+}

@@ -1,0 +1,254 @@
+//! What is known of a run: how every body moved, every event, the edits, and what is needed to go on from any moment with
+//! the same bits. The motion itself is recorded, so that a state at any time is looked up, not simulated again.
+
+use std::sync::Arc;
+
+use super::grid::StepGrid;
+use super::keyframes::{Keyframe, Keyframes};
+use super::ledger::{EventRow, Ledger};
+use super::moment::Moment;
+use super::ticks::{Tick, Ticks};
+use super::track::{Noted, Track, bytes_of};
+use crate::sim::{BodyRef, Event, Piece, SimEdit, Simulation};
+
+/// Memory that a recording may take unless told otherwise, bytes: ten minutes of ten bodies, seconds of ten thousand.
+pub(super) const BUDGET: usize = 1 << 30;
+
+/// Of the budget: what keyframes may take before they are thinned out, and what is dropped when all of it is used.
+const KEYFRAME_SHARE: f64 = 0.25;
+const DROPPED_SHARE: f64 = 0.25;
+
+/// Edits made together.
+#[derive(Clone, Debug)]
+pub(super) struct RecordedEdits {
+    pub(super) at: Moment,
+    pub(super) edits: Vec<SimEdit>,
+}
+
+#[derive(Debug)]
+pub(super) struct Recording {
+    /// By the number of the dynamic body.
+    tracks: Vec<Track>,
+    pub(super) ledger: Ledger,
+    pub(super) ticks: Ticks,
+    pub(super) keyframes: Keyframes,
+    /// In the order of their stamps.
+    edits: Vec<RecordedEdits>,
+    /// From when on it is kept: what was before was dropped to stay within the budget.
+    from: Moment,
+    /// Up to where the run is known.
+    pub(super) end: Moment,
+    /// The Δt around the end.
+    pub(super) end_grid: StepGrid,
+    /// Bytes that the tracks take.
+    track_bytes: usize,
+    budget: usize,
+}
+
+/// What lay after a moment before an edit there made another future.
+#[derive(Debug)]
+pub(super) struct Future {
+    pub(super) from: Moment,
+    end: Moment,
+    end_grid: StepGrid,
+    tracks: Vec<Vec<Noted>>,
+    rows: Vec<Arc<EventRow>>,
+    ticks: Vec<Tick>,
+    keyframes: Vec<Keyframe>,
+    head: Option<Box<Keyframe>>,
+    edits: Vec<RecordedEdits>,
+    /// How many edits and, of every body, pieces were before it.
+    edits_before: usize,
+    pieces_before: Vec<u64>,
+}
+
+impl Future {
+    pub(super) fn edit_count(&self) -> usize {
+        self.edits.len()
+    }
+}
+
+impl Recording {
+    /// Begins with the simulation as it is, and lets it tell its motion from now on.
+    pub(super) fn new(simulation: &mut Simulation, grid: StepGrid, budget: usize) -> Self {
+        let at = Moment::right_after(0, simulation.time());
+        simulation.trace_motion();
+        let mut recording = Self {
+            tracks: Vec::new(),
+            ledger: Ledger::default(),
+            ticks: Ticks::new(at, grid),
+            keyframes: Keyframes::default(),
+            edits: Vec::new(),
+            from: at,
+            end: at,
+            end_grid: grid,
+            track_bytes: 0,
+            budget,
+        };
+        recording.take_motion(simulation);
+        recording.keyframes.push(Keyframe::new(simulation, at, 0));
+        recording
+    }
+
+    /// Takes over the motion that the simulation has begun.
+    pub(super) fn take_motion(&mut self, simulation: &mut Simulation) {
+        let (tracks, bytes) = (&mut self.tracks, &mut self.track_bytes);
+        simulation.take_motion(&mut |begun| {
+            let BodyRef::Dynamic(body) = begun.body else { return };
+            let body = body as usize;
+            if tracks.len() <= body {
+                tracks.resize_with(body + 1, Track::default);
+            }
+            let from = Moment { event: begun.event, time: begun.piece.start(), is_over: !begun.by_event };
+            let noted = Noted { from, piece: begun.piece };
+            *bytes += bytes_of(&noted);
+            tracks[body].push(noted);
+        });
+    }
+
+    pub(super) fn note_event(&mut self, simulation: &Simulation, event: &Event) {
+        self.ledger.push(EventRow::new(simulation, event));
+    }
+
+    /// Notes the end of a Δt, with a keyframe now and then.
+    pub(super) fn note_tick(&mut self, simulation: &Simulation) {
+        let at = self.end;
+        self.ticks.note(Tick { at, grid: self.end_grid });
+        if self.keyframes.is_due(simulation) {
+            self.keyframes.push(Keyframe::new(simulation, at, self.edits.len()));
+            self.stay_within_budget();
+        }
+    }
+
+    /// Records edits made at the end of what is known.
+    pub(super) fn note_edits(&mut self, simulation: &Simulation, edits: Vec<SimEdit>) {
+        self.edits.push(RecordedEdits { at: self.end, edits });
+        let keyframe = Keyframe::new(simulation, self.end, self.edits.len());
+        self.keyframes.push(keyframe.after_edit());
+    }
+
+    /// Keeps the simulation as it is at the end of what is known, before it goes elsewhere.
+    pub(super) fn keep_head(&mut self, simulation: &Simulation) {
+        let head = Keyframe::new(simulation, self.end, self.edits.len());
+        self.keyframes.set_head(head);
+    }
+
+    /// The piece of motion that a body follows at a moment.
+    pub(super) fn piece(&self, body: BodyRef, moment: Moment) -> Option<&Piece> {
+        self.track(body)?.at(moment)
+    }
+
+    /// The pieces that a body follows between two times of what is known.
+    pub(super) fn pieces(&self, body: BodyRef, from: f64, to: f64) -> impl Iterator<Item = &Piece> {
+        let (from, to) = (self.moment_at(from), self.moment_at(to));
+        self.track(body).into_iter().flat_map(move |track| track.between(from, to))
+    }
+
+    /// After all that happens at a time; the first or last moment known where the time is before or after them.
+    pub(super) fn moment_at(&self, time: f64) -> Moment {
+        match time {
+            time if time >= self.end.time => self.end,
+            time if time <= self.from.time => self.from,
+            time => Moment::after_all(self.ledger.number_until(time), time),
+        }
+    }
+
+    /// Whether all is known that happens up to a time.
+    pub(super) fn knows(&self, time: f64) -> bool {
+        time < self.end.time || (time == self.end.time && self.end.is_over)
+    }
+
+    fn track(&self, body: BodyRef) -> Option<&Track> {
+        match body {
+            BodyRef::Dynamic(body) => self.tracks.get(body as usize),
+            BodyRef::Static(_) => None,
+        }
+    }
+
+    /// The edits after the first so many.
+    pub(super) fn edits(&self) -> &[RecordedEdits] {
+        &self.edits
+    }
+
+    /// From when on it is kept.
+    pub(super) fn from(&self) -> Moment {
+        self.from
+    }
+
+    pub(super) fn bytes(&self) -> usize {
+        self.track_bytes + self.ledger.bytes() + self.keyframes.bytes()
+    }
+
+    pub(super) fn budget(&self) -> usize {
+        self.budget
+    }
+
+    pub(super) fn set_budget(&mut self, bytes: usize) {
+        self.budget = bytes;
+        self.stay_within_budget();
+    }
+
+    /// Thins out the keyframes, then drops the oldest motion and events.
+    fn stay_within_budget(&mut self) {
+        while self.keyframes.bytes() as f64 > KEYFRAME_SHARE * self.budget as f64 && self.keyframes.thin() {}
+        if self.bytes() > self.budget {
+            self.drop_oldest();
+        }
+    }
+
+    /// Drops a share of the time known, from its beginning.
+    fn drop_oldest(&mut self) {
+        let time = self.from.time + DROPPED_SHARE * (self.end.time - self.from.time);
+        let Some(first) = self.keyframes.drop_before(time) else { return };
+        self.from = first;
+        self.ledger.drop_before(first.time);
+        self.ticks.drop_before(first.time);
+        let freed: usize = self.tracks.iter_mut().map(|track| track.drop_before(first.time)).sum();
+        self.track_bytes = self.track_bytes.saturating_sub(freed);
+    }
+
+    /// Takes what lies after a moment: something else will happen from there on.
+    pub(super) fn split_off(&mut self, at: Moment) -> Future {
+        let edits_before = self.edits.partition_point(|edits| edits.at.is_not_after(at));
+        let future = Future {
+            from: at,
+            end: std::mem::replace(&mut self.end, at),
+            end_grid: self.end_grid,
+            tracks: self.tracks.iter_mut().map(|track| track.split_off(at)).collect(),
+            rows: self.ledger.split_off(at.event),
+            ticks: self.ticks.split_off(at),
+            keyframes: self.keyframes.split_off(at),
+            head: self.keyframes.take_head(),
+            edits: self.edits.split_off(edits_before),
+            edits_before,
+            pieces_before: self.tracks.iter().map(Track::count).collect(),
+        };
+        let freed: usize = future.tracks.iter().flatten().map(bytes_of).sum();
+        self.track_bytes = self.track_bytes.saturating_sub(freed);
+        future
+    }
+
+    /// Puts back what was taken, in place of what lies after the moment where it was.
+    pub(super) fn put_back(&mut self, future: Future) {
+        self.split_off(future.from);
+        self.edits.truncate(future.edits_before);
+        self.keyframes.drop_after_edits(future.edits_before);
+        let before = future.pieces_before.iter().copied().chain(std::iter::repeat(0));
+        let freed: usize =
+            self.tracks.iter_mut().zip(before).map(|(track, count)| track.truncate(count)).sum();
+        self.track_bytes = self.track_bytes.saturating_sub(freed);
+        (self.end, self.end_grid) = (future.end, future.end_grid);
+        self.track_bytes += future.tracks.iter().flatten().map(bytes_of).sum::<usize>();
+        self.tracks.resize_with(self.tracks.len().max(future.tracks.len()), Track::default);
+        for (track, rest) in self.tracks.iter_mut().zip(future.tracks) {
+            track.append(rest);
+        }
+        self.ledger.append(future.rows);
+        self.ticks.append(future.ticks);
+        self.keyframes.append(future.keyframes);
+        if let Some(head) = future.head {
+            self.keyframes.set_head(*head);
+        }
+        self.edits.extend(future.edits);
+    }
+}

@@ -1,0 +1,223 @@
+//! What a recorder is working on, one portion at a time.
+
+use super::command::{Goal, Of};
+use super::run::{Run, Slice, Stop};
+use crate::sim::EventKind;
+
+/// What is being worked on.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) enum Task {
+    #[default]
+    Idle,
+    Steps {
+        dt: f64,
+        left: u32,
+    },
+    ToEvent {
+        dt: f64,
+        of: Of,
+        /// Δt without an event so far.
+        empty: u32,
+    },
+    Until {
+        dt: f64,
+        goal: Goal,
+    },
+    Finish,
+    Play(Play),
+}
+
+/// Playing, by a clock.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Play {
+    dt: f64,
+    /// Model seconds per wall second, ≠ 0.
+    speed: f64,
+    range: Option<(f64, f64)>,
+    /// Model seconds that have come due since the last end of a Δt.
+    due: f64,
+    /// Model seconds that were given up, for the machine cannot follow.
+    lost: f64,
+    /// Whether what is shown was inside a Δt at the beginning, and counts as due.
+    has_begun: bool,
+}
+
+/// Wall-clock seconds of playing that may wait to be simulated. A machine that cannot follow falls behind
+/// by this much and then plays slower, with the same Δt.
+const MOST_DUE: f64 = 0.1;
+
+/// Wall-clock seconds between two pictures: a Δt that takes longer to play is gone through in between.
+const PICTURE: f64 = 1.0 / 60.0;
+
+/// Δt without an event after which "next event" stops looking, so that a scene in which nothing happens
+/// any more does not run for ever.
+const MOST_EMPTY_STEPS: u32 = 100_000;
+
+impl Task {
+    /// Does one Δt, or what the budget allows; false when a task cannot go on for now.
+    pub(super) fn advance(&mut self, run: &mut Run, budget: &mut u32) -> bool {
+        match self {
+            Self::Idle => {}
+            Self::Steps { dt, left } => {
+                if run.slice(*dt, Stop::NOWHERE, budget) == Slice::Done {
+                    *left -= 1;
+                    if *left == 0 {
+                        *self = Self::Idle;
+                    }
+                }
+            }
+            Self::ToEvent { dt, of, empty } => match run.slice(*dt, Stop::AT_EVENTS, budget) {
+                Slice::Event if is_reached(run, *of) => *self = Self::Idle,
+                Slice::Done if *empty >= MOST_EMPTY_STEPS => {
+                    run.message = Some(format!("no event within {MOST_EMPTY_STEPS} Δt"));
+                    *self = Self::Idle;
+                }
+                Slice::Done => *empty += 1,
+                Slice::Event | Slice::Stopped | Slice::Pause => {}
+            },
+            Self::Until { dt, goal } => {
+                if goal.advance(run, *dt, budget) {
+                    *self = Self::Idle;
+                }
+            }
+            Self::Finish => match run.grid.open {
+                Some((start, end)) => {
+                    if run.slice(end - start, Stop::NOWHERE, budget) == Slice::Done {
+                        *self = Self::Idle;
+                    }
+                }
+                None => *self = Self::Idle,
+            },
+            Self::Play(play) => return play.advance(run, budget).unwrap_or_else(|| self.end()),
+        }
+        true
+    }
+
+    fn end(&mut self) -> bool {
+        *self = Self::Idle;
+        true
+    }
+}
+
+fn is_reached(run: &Run, of: Of) -> bool {
+    run.recording.ledger.get(run.cursor.event).is_some_and(|row| of.holds(row))
+}
+
+impl Goal {
+    /// Goes on; whether the goal is reached.
+    fn advance(&mut self, run: &mut Run, dt: f64, budget: &mut u32) -> bool {
+        match self {
+            Self::Time(time) => {
+                let stop = Stop { at_events: false, time: *time };
+                run.cursor.time >= *time
+                    || (run.slice(dt, stop, budget) != Slice::Pause && run.cursor.time >= *time)
+            }
+            Self::Events(left) => {
+                *left -= u64::from(run.slice(dt, Stop::AT_EVENTS, budget) == Slice::Event).min(*left);
+                *left == 0
+            }
+            Self::Rest => {
+                if run.is_at_rest() {
+                    return true;
+                }
+                // A look at all bodies costs: only where one may have come to rest.
+                while *budget > 0 && !run.is_faulted() {
+                    let slice = run.slice(dt, Stop::AT_EVENTS, budget);
+                    if slice == Slice::Done || (slice == Slice::Event && ends_motion(run)) {
+                        return run.is_at_rest();
+                    }
+                }
+                false
+            }
+        }
+    }
+}
+
+/// Whether the event shown is one after which a body may lie still.
+fn ends_motion(run: &Run) -> bool {
+    let row = run.recording.ledger.get(run.cursor.event);
+    row.is_some_and(|row| {
+        matches!(row.event.kind, EventKind::Rest | EventKind::GroupRest | EventKind::Captured)
+    })
+}
+
+impl Play {
+    pub(super) fn new(dt: f64, speed: f64, range: Option<(f64, f64)>) -> Self {
+        Self { dt, speed, range, due: 0.0, lost: 0.0, has_begun: false }
+    }
+
+    /// Notes that wall-clock time has passed.
+    pub(super) fn elapse(&mut self, wall_s: f64) {
+        let wanted = self.due + wall_s.max(0.0) * self.speed.abs();
+        self.due = wanted.min(MOST_DUE * self.speed.abs() + self.dt);
+        self.lost += wanted - self.due;
+    }
+
+    /// Model seconds that were given up since the last call.
+    pub(super) fn take_lost(&mut self) -> f64 {
+        std::mem::take(&mut self.lost)
+    }
+
+    /// One Δt, or what the budget allows; `Some(false)` when nothing is due, `None` at the end of what can be played.
+    fn advance(&mut self, run: &mut Run, budget: &mut u32) -> Option<bool> {
+        self.begin(run);
+        let is_due = self.due >= self.dt;
+        if is_due && self.speed > 0.0 {
+            if run.slice(self.dt, Stop::NOWHERE, budget) == Slice::Done {
+                self.due = (self.due - self.dt).max(0.0);
+                self.loop_over(run);
+            }
+            return Some(true);
+        }
+        if is_due {
+            *budget = budget.saturating_sub(1);
+            if !run.step_back() {
+                return self.range.map(|(_, to)| run.seek(to));
+            }
+            self.due -= self.dt;
+            self.loop_over(run);
+            return Some(true);
+        }
+        if PICTURE * self.speed.abs() < self.dt && self.due > 0.0 {
+            return Some(self.glide(run, budget));
+        }
+        Some(false)
+    }
+
+    /// What is gone of an open Δt has come due.
+    fn begin(&mut self, run: &Run) {
+        if let Some((start, end)) = run.grid.open.filter(|_| !self.has_begun) {
+            let now = run.cursor.time;
+            self.due += if self.speed > 0.0 { now - start } else { end - now };
+        }
+        self.has_begun = true;
+    }
+
+    /// Shows a place inside the Δt, once that is known; whether there is more to do for that at once.
+    fn glide(&mut self, run: &mut Run, budget: &mut u32) -> bool {
+        let (start, end) = run.grid.open.unwrap_or_else(|| {
+            let now = run.cursor.time;
+            if self.speed > 0.0 { (now, now + self.dt) } else { (now - self.dt, now) }
+        });
+        let wanted = if self.speed > 0.0 { (start + self.due).min(end) } else { (end - self.due).max(start) };
+        let slice = if run.recording.end.time < wanted {
+            run.slice(self.dt, Stop::NOWHERE, budget)
+        } else {
+            Slice::Done
+        };
+        if !run.is_faulted() {
+            run.seek(wanted.min(run.recording.end.time));
+        }
+        slice != Slice::Done
+    }
+
+    /// From the end of the range back to its beginning, or the other way.
+    fn loop_over(&self, run: &mut Run) {
+        let Some((from, to)) = self.range else { return };
+        if self.speed > 0.0 && run.cursor.time >= to {
+            run.seek(from);
+        } else if self.speed < 0.0 && run.cursor.time <= from {
+            run.seek(to);
+        }
+    }
+}

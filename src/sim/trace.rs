@@ -1,0 +1,154 @@
+//! The motion as it is made: every piece of it that a body begins, for whoever records the run.
+
+use glam::DVec3;
+
+use super::event::BodyRef;
+use super::place::Place;
+use super::report::{BodyState, ContactState};
+use super::segment::{Path, Segment, Series};
+
+/// How one body moves from one moment on, until its next piece begins: a polynomial in the time since its start. It gives
+/// the same bits as the simulation that it was taken from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Piece {
+    start: f64,
+    x: DVec3,
+    v: DVec3,
+    a: DVec3,
+    /// Of integrated motion only; apart, since most have none.
+    series: Option<Box<Integrated>>,
+    hold: Hold,
+}
+
+/// The series of a field segment with the length of its step, s.
+#[derive(Clone, Debug, PartialEq)]
+struct Integrated {
+    step: f64,
+    series: Series,
+}
+
+/// What holds a body while it follows a piece.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Hold {
+    #[default]
+    Nothing,
+    /// A lasting contact, or the core of an attractor.
+    Contact,
+    /// It is stepped with others.
+    Stepped,
+    /// It lies still with others that were stepped.
+    Frozen,
+}
+
+/// A piece of a body's motion, and from when on it is seen.
+#[derive(Clone, Debug)]
+pub struct Begun {
+    pub body: BodyRef,
+    /// Number of the event from which on the body follows it; of events before, of the last one.
+    pub event: u64,
+    /// Whether it is seen right after that event, or the edit that began it; otherwise once all that happens at its
+    /// start has happened.
+    pub by_event: bool,
+    pub piece: Piece,
+}
+
+/// Pieces begun since they were taken last.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Trace {
+    pub is_on: bool,
+    begun: Vec<Begun>,
+    /// How many of them are labelled with their event.
+    sealed: usize,
+}
+
+impl Piece {
+    pub(super) fn new(path: Path<'_>) -> Self {
+        let Segment { start, x, v, a, step, .. } = *path.segment;
+        let series = path.series.map(|series| Box::new(Integrated { step, series: *series }));
+        Self { start, x, v, a, series, hold: Hold::Nothing }
+    }
+
+    /// Model time, s.
+    pub fn start(&self) -> f64 {
+        self.start
+    }
+
+    /// Highest power of the time: 0 at rest, 1 straight, 2 a parabola, 9 of integrated motion.
+    pub fn degree(&self) -> u32 {
+        match () {
+            () if self.series.is_some() => 9,
+            () if self.a != DVec3::ZERO => 2,
+            () if self.v != DVec3::ZERO => 1,
+            () => 0,
+        }
+    }
+
+    /// Centre at a time, m.
+    pub fn position(&self, time: f64) -> DVec3 {
+        self.with_path(|path| path.position(time))
+    }
+
+    /// State of the body at a time while it follows this piece.
+    pub fn at(&self, time: f64) -> BodyState {
+        let (position, velocity, acceleration) =
+            self.with_path(|path| (path.position(time), path.velocity(time), path.acceleration(time)));
+        let still = velocity == DVec3::ZERO && acceleration == DVec3::ZERO;
+        let contact = match self.hold {
+            Hold::Nothing => ContactState::Flight,
+            Hold::Contact if still => ContactState::Rest,
+            Hold::Contact => ContactState::Slide,
+            Hold::Stepped => ContactState::Stepped,
+            Hold::Frozen => ContactState::Rest,
+        };
+        BodyState { position, velocity, acceleration, contact }
+    }
+
+    pub(super) fn place_and_velocity(&self, time: f64) -> (Place, DVec3) {
+        self.with_path(|path| (path.place(time), path.velocity(time)))
+    }
+
+    /// Bytes that it takes, those of its series included.
+    pub fn bytes(&self) -> usize {
+        size_of::<Self>() + self.series.as_ref().map_or(0, |_| size_of::<Integrated>())
+    }
+
+    fn with_path<R>(&self, read: impl FnOnce(Path<'_>) -> R) -> R {
+        let step = self.series.as_ref().map_or(0.0, |integrated| integrated.step);
+        let segment = Segment { step, ..Segment::ballistic(self.start, self.x, self.v, self.a) };
+        read(Path { segment: &segment, series: self.series.as_ref().map(|integrated| &integrated.series) })
+    }
+}
+
+impl Trace {
+    /// Notes what a body follows from now on.
+    pub fn push(&mut self, body: u32, path: Path<'_>) {
+        if self.is_on {
+            self.begun.push(Begun {
+                body: BodyRef::Dynamic(body),
+                event: 0,
+                by_event: false,
+                piece: Piece::new(path),
+            });
+        }
+    }
+
+    /// Labels what was begun since the last call with the event that it is seen from, and with what holds the bodies.
+    pub fn seal(&mut self, event: u64, by_event: bool, hold: impl Fn(u32) -> Hold) {
+        for begun in self.begun.iter_mut().skip(self.sealed) {
+            (begun.event, begun.by_event) = (event, by_event);
+            if let BodyRef::Dynamic(body) = begun.body {
+                begun.piece.hold = hold(body);
+            }
+        }
+        self.sealed = self.begun.len();
+    }
+
+    pub fn has_unsealed(&self) -> bool {
+        self.sealed < self.begun.len()
+    }
+
+    pub fn take(&mut self, each: &mut dyn FnMut(Begun)) {
+        self.sealed = 0;
+        self.begun.drain(..).for_each(each);
+    }
+}

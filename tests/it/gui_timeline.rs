@@ -1,0 +1,158 @@
+//! The timeline, the ledger and the controls of time, by their accessible labels.
+
+use egui::accesskit::Role;
+use egui::{Key, Modifiers};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+use crate::gui_support::Window;
+
+fn type_time(window: &mut Window, text: &str) {
+    let field = window.harness.get_by_role_and_label(Role::TextInput, "t");
+    field.focus();
+    window.harness.run();
+    window.key_with(Modifiers::COMMAND, Key::A);
+    window.harness.event(egui::Event::Text(text.into()));
+    window.key(Key::Enter);
+}
+
+#[test]
+fn a_typed_time_is_gone_to_in_both_directions() {
+    let mut window = Window::thesis();
+    type_time(&mut window, "2.5");
+    assert_eq!(window.frame().time, 2.5);
+    let count = window.frame().event_count;
+    assert!(count > 0);
+    type_time(&mut window, "0,5");
+    assert_eq!(window.frame().time, 0.5);
+    assert_eq!((window.frame().recorded.to, window.frame().ledger.len() as u64), (2.5, count));
+    type_time(&mut window, "soon");
+    assert!(window.has_containing("is not a time"));
+    assert_eq!(window.frame().time, 0.5);
+}
+
+#[test]
+fn the_timeline_is_clicked_and_stepped_through_by_arrows() {
+    let mut window = Window::thesis();
+    type_time(&mut window, "4");
+    let line = window.harness.get_by_label("Timeline of the run");
+    let rect = line.rect();
+    let half = egui::pos2(rect.left() + 12.0 + 0.5 * (rect.width() - 116.0), rect.center().y);
+    window.harness.drag_at(half);
+    window.harness.run();
+    window.harness.drop_at(half);
+    window.harness.run();
+    let time = window.frame().time;
+    assert!((time - 2.0).abs() < 0.02, "{time}");
+    let index = window.frame().dt_index;
+    window.key(Key::ArrowRight);
+    assert!(window.frame().time > time);
+    window.key(Key::ArrowRight);
+    assert!(window.frame().dt_index > index);
+    let events = window.frame().event_count;
+    window.key_with(Modifiers::SHIFT, Key::ArrowLeft);
+    assert!(window.frame().event_count <= events);
+}
+
+#[test]
+fn the_ledger_lists_the_whole_run_and_goes_to_its_events() {
+    let mut window = Window::thesis();
+    type_time(&mut window, "6");
+    let frame = window.frame().clone();
+    assert!(window.has_containing(&format!("Events ({})", frame.ledger.len())));
+    let first = frame.ledger.at(0).unwrap().clone();
+    let label = format!("{:.9}", first.event.time);
+    window.key(Key::Home);
+    assert_eq!((window.frame().time, window.frame().ledger.len()), (0.0, frame.ledger.len()));
+    window.click(&label);
+    assert_eq!((window.frame().event_count, window.frame().time), (1, first.event.time));
+    let shown = window.harness.state().session().shown_event().cloned().expect("it is shown");
+    assert_eq!(shown.event.seq, 1);
+}
+
+#[test]
+fn the_ledger_is_narrowed_to_the_step_and_to_bodies() {
+    let mut window = Window::thesis();
+    type_time(&mut window, "6");
+    let row = window.frame().ledger.at(0).unwrap().clone();
+    let cell = format!("{:.9}", row.event.time);
+    window.key(Key::Home);
+    assert!(window.has(&cell));
+    window.click_role(Role::CheckBox, "Only this Δt");
+    assert!(!window.has(&cell), "nothing happens in the first Δt");
+    window.click_role(Role::CheckBox, "Only this Δt");
+    assert!(window.has(&cell));
+    type_into(&mut window, "Smallest impulse listed", "1e9");
+    assert!(!window.has(&cell));
+    window.click("All");
+    assert!(window.has(&cell));
+}
+
+fn type_into(window: &mut Window, label: &str, text: &str) {
+    window.harness.get_by_role_and_label(Role::TextInput, label).focus();
+    window.harness.run();
+    window.harness.event(egui::Event::Text(text.into()));
+    window.harness.run();
+}
+
+#[test]
+fn bookmarks_are_set_gone_to_and_removed() {
+    let mut window = Window::thesis();
+    type_time(&mut window, "3");
+    window.key(Key::Home);
+    window.key(Key::N);
+    window.key(Key::M);
+    let at = window.frame().time;
+    assert!(window.has("Bookmark 1: event 1"));
+    type_time(&mut window, "2");
+    window.key(Key::M);
+    window.key(Key::Home);
+    window.key(Key::CloseBracket);
+    assert_eq!((window.frame().time, window.frame().event_count), (at, 1));
+    window.key(Key::CloseBracket);
+    assert_eq!(window.frame().time, 2.0);
+    window.key(Key::OpenBracket);
+    assert_eq!(window.frame().time, at);
+    window.harness.get_by_label("Bookmark 1: event 1").click_secondary();
+    window.harness.run();
+    window.click("Remove bookmark");
+    assert!(!window.has("Bookmark 1: event 1"));
+}
+
+#[test]
+fn playing_backwards_has_a_button_and_a_key() {
+    let mut window = Window::thesis();
+    let back = window.harness.get_by_role_and_label(Role::Button, "Play backwards");
+    assert!(back.accesskit_node().is_disabled(), "nothing is recorded yet");
+    type_time(&mut window, "1");
+    window.harness.get_by_role_and_label(Role::Button, "Play backwards").click();
+    window.harness.run_steps(4);
+    window.harness.get_by_role_and_label(Role::Button, "Pause").click();
+    window.harness.run_steps(4);
+    assert!(window.frame().time <= 1.0);
+}
+
+#[test]
+fn a_run_goes_on_until_its_goal() {
+    let mut window = Window::thesis();
+    window.click_role(Role::Button, "Run");
+    window.click_role(Role::Button, "For 10 events");
+    assert_eq!(window.frame().event_count, 10);
+}
+
+/// Find the collision that throws the ball out of the box: go back over the events of a body, with the keyboard alone.
+#[test]
+fn the_events_of_the_selection_are_gone_through() {
+    let mut window = Window::thesis();
+    type_time(&mut window, "6");
+    window.click_role(Role::TreeItem, "15921");
+    let key = window.body("15921").key;
+    window.key_with(Modifiers::SHIFT, Key::B);
+    let frame = window.frame().clone();
+    let row = frame.event(frame.event_count).expect("an event").clone();
+    assert!(row.concerns(key));
+    window.key_with(Modifiers::SHIFT, Key::B);
+    let before = window.frame().clone();
+    assert!(before.event_count < frame.event_count);
+    assert!(before.event(before.event_count).is_some_and(|row| row.concerns(key)));
+    assert!(!before.at_impact.is_empty());
+}

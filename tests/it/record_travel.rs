@@ -1,0 +1,231 @@
+//! Moving through a recorded run: to times and events, backwards, over a range, to goals; the memory it may take; what an
+//! edit in the past replaces and how it is brought back; the ways of bodies.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use polyscene::record::{Frame, Goal, InlineRunner, Of, PathSpan, RunCommand, RunState, Runner as _};
+use polyscene::sim::{ContactState, SimEdit};
+
+use crate::common::load::load;
+
+const DT: f64 = 1.0 / 60.0;
+
+fn loaded(name: &str) -> InlineRunner {
+    let mut runner = InlineRunner::new();
+    runner.send(RunCommand::Load(Arc::new(load(name))));
+    runner
+}
+
+fn after(runner: &mut InlineRunner, command: RunCommand) -> Arc<Frame> {
+    runner.send(command);
+    let frame = runner.frame();
+    assert_eq!(frame.fault, None);
+    frame
+}
+
+fn step(runner: &mut InlineRunner, count: u32) -> Arc<Frame> {
+    after(runner, RunCommand::Step { dt: DT, count })
+}
+
+fn seek(runner: &mut InlineRunner, time: f64) -> Arc<Frame> {
+    after(runner, RunCommand::Seek { dt: DT, time })
+}
+
+/// What must be the same to the bit when the same moment is reached again.
+fn bits(frame: &Frame) -> (u64, u64, Vec<[u64; 6]>) {
+    let bodies = frame.bodies.iter().map(|body| {
+        let (x, v) = (body.position.to_array(), body.velocity.to_array());
+        [x[0], x[1], x[2], v[0], v[1], v[2]].map(f64::to_bits)
+    });
+    (frame.time.to_bits(), frame.event_count, bodies.collect())
+}
+
+#[test]
+fn any_time_is_reached_with_the_same_bits_from_anywhere() {
+    let mut runner = loaded("thesis-appendix-2.xml");
+    let times: Vec<f64> = (0..40).map(|nth| 0.137 * f64::from(nth)).collect();
+    let forwards: Vec<_> = times.iter().map(|time| bits(&seek(&mut runner, *time))).collect();
+    step(&mut runner, 60);
+    for (time, expected) in times.iter().zip(&forwards).rev() {
+        assert_eq!(bits(&seek(&mut runner, *time)), *expected, "back at {time}");
+    }
+    let mut other = loaded("thesis-appendix-2.xml");
+    step(&mut other, 400);
+    for (time, expected) in times.iter().zip(&forwards) {
+        assert_eq!(bits(&seek(&mut other, *time)), *expected, "in another recording at {time}");
+    }
+}
+
+#[test]
+fn seeking_beyond_the_end_runs_on_and_stays_inside_the_step() {
+    let mut runner = loaded("thesis-appendix-2.xml");
+    let frame = seek(&mut runner, 1.234);
+    assert_eq!(frame.time, 1.234);
+    let (start, end) = frame.open_step.expect("inside a Δt");
+    assert!(start < 1.234 && 1.234 < end && (end - start - DT).abs() < 1e-12);
+    let whole = after(&mut runner, RunCommand::FinishStep);
+    let mut plain = loaded("thesis-appendix-2.xml");
+    assert_eq!(bits(&whole), bits(&step(&mut plain, whole.dt_index as u32)));
+    for time in [f64::NAN, f64::INFINITY] {
+        runner.send(RunCommand::Seek { dt: DT, time });
+        assert_eq!(runner.frame().fault.as_deref(), Some("that is not a time"));
+    }
+}
+
+#[test]
+fn playing_backwards_shows_what_playing_forwards_showed() {
+    let mut runner = loaded("thesis-appendix-2.xml");
+    let mut shown = vec![bits(&runner.frame())];
+    for _ in 0..100 {
+        shown.push(bits(&step(&mut runner, 1)));
+    }
+    runner.send(RunCommand::Play { dt: DT, speed: -1.0, range: None });
+    let mut back = Vec::new();
+    while runner.frame().state == RunState::Playing && back.len() < 200 {
+        runner.tick(DT * 1.0001);
+        back.push(bits(&runner.frame()));
+    }
+    back.dedup();
+    shown.pop();
+    shown.reverse();
+    assert_eq!(back, shown);
+    assert_eq!((runner.frame().state, runner.frame().time), (RunState::Paused, 0.0));
+}
+
+#[test]
+fn slow_playing_goes_through_the_step_and_a_range_is_repeated() {
+    let mut runner = loaded("thesis-appendix-2.xml");
+    runner.send(RunCommand::Play { dt: 0.25, speed: 0.1, range: None });
+    let mut times = Vec::new();
+    for _ in 0..60 {
+        runner.tick(1.0 / 60.0);
+        times.push(runner.frame().time);
+    }
+    assert!(times.windows(2).all(|pair| pair[0] < pair[1]), "{times:?}");
+    assert!((times[59] - 0.1).abs() < 0.005, "{}", times[59]);
+    runner.send(RunCommand::Play { dt: 0.25, speed: 1.0, range: Some((0.5, 1.0)) });
+    let mut most: f64 = 0.0;
+    for _ in 0..40 {
+        runner.tick(0.25);
+        most = most.max(runner.frame().time);
+    }
+    assert!(most <= 1.0 && runner.frame().state == RunState::Playing, "at most {most} s");
+}
+
+#[test]
+fn events_of_a_body_and_of_a_pair_are_gone_to() {
+    let mut runner = loaded("thesis-appendix-2.xml");
+    let all = step(&mut runner, 600);
+    let row = all.ledger.at(3).expect("some events").clone();
+    let (a, b) = (row.a_key, row.b_key.expect("an impact"));
+    let of_body: Vec<u64> =
+        all.ledger.iter_from(0).filter(|row| row.concerns(a)).map(|row| row.event.seq).collect();
+    let of_pair: Vec<u64> = all
+        .ledger
+        .iter_from(0)
+        .filter(|row| row.concerns(a) && row.concerns(b))
+        .map(|row| row.event.seq)
+        .collect();
+    for (of, wanted) in [(Of::Body(a), &of_body), (Of::Pair(a, b), &of_pair)] {
+        seek(&mut runner, 0.0);
+        for number in wanted {
+            assert_eq!(after(&mut runner, RunCommand::NextEvent { dt: DT, of }).event_count, *number);
+        }
+        for number in wanted.iter().rev().skip(1) {
+            assert_eq!(after(&mut runner, RunCommand::EventBack { of }).event_count, *number);
+        }
+    }
+    // A run that knows nothing yet finds the same.
+    let mut fresh = loaded("thesis-appendix-2.xml");
+    let first = after(&mut fresh, RunCommand::NextEvent { dt: DT, of: Of::Pair(a, b) });
+    assert_eq!(first.event_count, of_pair[0]);
+}
+
+#[test]
+fn running_ends_at_its_goal() {
+    let mut runner = loaded("thesis-appendix-2.xml");
+    let until = |goal| RunCommand::RunUntil { dt: DT, goal };
+    assert_eq!(after(&mut runner, until(Goal::Events(7))).event_count, 7);
+    assert_eq!(after(&mut runner, until(Goal::Events(5))).event_count, 12);
+    assert_eq!(after(&mut runner, until(Goal::Time(9.125))).time, 9.125);
+    let mut runner = loaded("bin.xml");
+    let rest = after(&mut runner, until(Goal::Rest));
+    assert!(
+        rest.time > 0.5 && rest.bodies.iter().all(|body| body.contact == ContactState::Rest),
+        "{}",
+        rest.time
+    );
+    let again = seek(&mut runner, 0.0);
+    assert_eq!((again.time, again.event_count), (0.0, 0));
+    let looked_up = after(&mut runner, until(Goal::Rest));
+    assert_eq!(bits(&looked_up), bits(&rest));
+}
+
+#[test]
+fn what_an_edit_in_the_past_replaces_can_be_brought_back() {
+    let mut runner = loaded("thesis-appendix-2.xml");
+    let end = step(&mut runner, 200);
+    seek(&mut runner, 1.5);
+    let key = end.bodies[0].key;
+    let edited = after(&mut runner, RunCommand::Edit(vec![SimEdit::Mass(key, 9.0)]));
+    assert_eq!((edited.recorded.to, edited.recorded.can_bring_back), (1.5, true));
+    let other = step(&mut runner, 150);
+    assert!(other.time > 2.0);
+    let back = after(&mut runner, RunCommand::BringBack);
+    assert_eq!((back.time, back.recorded.to, back.recorded.can_bring_back), (1.5, end.time, false));
+    assert!(back.recorded.edits.is_empty());
+    assert_eq!(bits(&seek(&mut runner, end.time)), bits(&end));
+    assert_eq!(runner.frame().ledger.len(), end.ledger.len());
+    let on = step(&mut runner, 100);
+    let mut plain = loaded("thesis-appendix-2.xml");
+    assert_eq!(bits(&on), bits(&step(&mut plain, 300)));
+}
+
+#[test]
+fn a_small_memory_drops_the_oldest_and_says_so() {
+    let mut runner = loaded("gas.xml");
+    runner.send(RunCommand::Budget(3 << 20));
+    let end = step(&mut runner, 300);
+    let recorded = &end.recorded;
+    assert!(recorded.bytes <= recorded.budget + (1 << 20), "{} of {}", recorded.bytes, recorded.budget);
+    assert!(recorded.from > 0.0 && end.ledger.first() > 1, "from {} s", recorded.from);
+    let early = seek(&mut runner, 0.0);
+    assert_eq!(early.time, recorded.from, "the first time that is kept");
+    assert_eq!(bits(&seek(&mut runner, end.time)), bits(&end));
+    let mut plain = loaded("gas.xml");
+    let middle = 0.5 * (recorded.from + recorded.to);
+    assert_eq!(bits(&seek(&mut runner, middle)), bits(&seek(&mut plain, middle)));
+}
+
+/// A ball that falls from 5 m: its way is the parabola itself, at any distance from the pictures.
+#[test]
+fn ways_lie_on_the_motion_itself() {
+    let mut runner = loaded("bounce.xml");
+    runner.send(RunCommand::Step { dt: 1.0, count: 3 });
+    runner.send(RunCommand::Paths(Some(PathSpan { past: 0.5, future: 0.4 })));
+    let frame = seek(&mut runner, 0.5);
+    let path = &frame.paths[0];
+    let (first, now) = (path.past[0], *path.past.last().unwrap());
+    assert!((first.y - 5.0).abs() < 1e-12 && (now.y - (5.0 - 4.9 * 0.25)).abs() < 1e-12);
+    assert!((path.future.last().unwrap().y - (5.0 - 4.9 * 0.81)).abs() < 1e-12);
+    assert_eq!(path.future.first(), Some(&now));
+    runner.send(RunCommand::Paths(None));
+    assert!(runner.frame().paths.is_empty());
+}
+
+#[test]
+fn at_an_event_its_bodies_come_and_leave() {
+    let mut runner = loaded("bounce.xml");
+    let frame = after(&mut runner, RunCommand::NextEvent { dt: 1.5, of: Of::All });
+    let speed = (2.0 * 9.8 * 4.5_f64).sqrt();
+    let [ball] = frame.at_impact.as_slice() else { panic!("one body: {:?}", frame.at_impact) };
+    assert!(
+        (ball.before + speed * DVec3::Y).length() < 1e-9 && (ball.after - speed * DVec3::Y).length() < 1e-9
+    );
+    assert_eq!((ball.at_start.y, ball.at_end), (5.0, None));
+    after(&mut runner, RunCommand::FinishStep);
+    assert!(runner.frame().at_impact.is_empty());
+    let again = after(&mut runner, RunCommand::EventBack { of: Of::All });
+    assert!(again.at_impact[0].at_end.is_some(), "the end of the Δt is known now");
+}
