@@ -17,6 +17,7 @@ mod output;
 mod render;
 mod run;
 mod samples;
+mod schema;
 mod study;
 
 use std::ffi::OsString;
@@ -38,6 +39,7 @@ pub use input::{Examined, examine};
 #[cfg(feature = "render")]
 pub use render::RenderArgs;
 pub use run::RunArgs;
+pub use schema::SchemaArgs;
 pub use study::StudyArgs;
 
 /// Design 3D rigid body scenes, step their simulation event by event, and see how accurate it is.
@@ -79,6 +81,7 @@ pub enum Verb {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         arguments: Vec<OsString>,
     },
+    Schema(SchemaArgs),
     Study(StudyArgs),
 }
 
@@ -95,6 +98,7 @@ impl Verb {
             Self::Render(args) => render::render(args),
             #[cfg(not(feature = "render"))]
             Self::Render { .. } => Err(CliError::no_pictures()),
+            Self::Schema(args) => schema::schema_of(args),
             Self::Study(args) => study::study(args),
         }
     }

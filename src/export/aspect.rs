@@ -33,6 +33,9 @@ pub enum Aspect {
     TimeSpeed,
     Solver,
     Viewpoints,
+    Comments,
+    /// Elements, attributes, texts and instructions that the format does not know.
+    Unknown,
 }
 
 pub(super) struct AspectInfo {
@@ -119,6 +122,8 @@ pub(super) const ASPECTS: &[AspectInfo] = &[
     row(Aspect::Viewpoints, "saved viewpoint", "saved viewpoints", |s| {
         s.document.viewpoints().into_iter().map(|viewpoint| viewpoint.name).collect()
     }),
+    row(Aspect::Comments, "comment", "comments", |s| vec![String::new(); s.foreign.comments]),
+    row(Aspect::Unknown, "piece unknown here", "pieces unknown here", |s| s.foreign.unknown.clone()),
 ];
 
 fn moves(body: &Body) -> bool {

@@ -2,7 +2,7 @@
 
 use super::aspect::Aspect;
 use super::format::{ExportError, Exported, Format, Source};
-use super::report::{Fate, Report, dropped, kept, not_needed};
+use super::report::{Fate, Report, dropped, kept, no_meaning, not_needed};
 use super::xml::number;
 use crate::scene::{Body, Motion, Shape};
 
@@ -104,5 +104,6 @@ fn fate(aspect: Aspect) -> Fate {
         }
         Aspect::Map => not_needed("a search grid, on which no result depends"),
         Aspect::TimeSpeed | Aspect::Solver | Aspect::Viewpoints => dropped("the table has bodies only"),
+        Aspect::Comments | Aspect::Unknown => no_meaning(),
     }
 }

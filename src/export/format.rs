@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::report::Report;
-use crate::scene::{Body, Document, EditError, ForceKind, Scene};
+use crate::scene::{Body, Document, EditError, ForceKind, Foreign, Scene};
 
 /// One way to write a scene for another program.
 #[derive(Debug)]
@@ -23,7 +23,7 @@ impl Format {
     /// Writes the scene of a document. It must have one, without errors.
     pub fn export(&self, document: &Document) -> Result<Exported, ExportError> {
         let scene = document.scene().filter(|_| !document.has_errors()).ok_or(ExportError::NoScene)?;
-        (self.write)(&Source { document, scene })
+        (self.write)(&Source { document, scene, foreign: document.foreign() })
     }
 }
 
@@ -53,6 +53,7 @@ pub enum ExportError {
 pub(super) struct Source<'a> {
     pub document: &'a Document,
     pub scene: &'a Scene,
+    pub foreign: Foreign,
 }
 
 impl Source<'_> {

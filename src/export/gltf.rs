@@ -8,7 +8,7 @@ use super::axes::quaternion;
 use super::format::{ExportError, Exported, Format, Source};
 use super::mesh::{self, Mesh};
 use super::names;
-use super::report::{Fate, Report, approximated, dropped, kept, not_needed};
+use super::report::{Fate, Report, approximated, dropped, kept, no_meaning, not_needed};
 use crate::scene::{Body, ForceKind, Motion, Shape, Viewpoint, rotation_matrix};
 
 pub(super) const FORMAT: Format = Format {
@@ -285,5 +285,6 @@ fn fate(aspect: Aspect) -> Fate {
         Aspect::TimeSpeed => dropped("nothing moves in the file"),
         Aspect::Solver => dropped("settings of this program's core"),
         Aspect::Viewpoints => kept("as cameras"),
+        Aspect::Comments | Aspect::Unknown => no_meaning(),
     }
 }

@@ -8,7 +8,7 @@ use super::contact::{Yielding, damping_ratio};
 use super::format::{ExportError, Exported, Format, Source};
 use super::names;
 use super::pairs::Pairs;
-use super::report::{Fate, Report, approximated, dropped, kept, not_needed};
+use super::report::{Fate, Report, approximated, dropped, kept, no_meaning, not_needed};
 use super::slab::Slabs;
 use super::xml::{Xml, number, numbers, rgba, vector};
 use crate::scene::{Body, Motion, Shape};
@@ -223,6 +223,7 @@ impl Writer<'_> {
             Aspect::TimeSpeed => dropped("the viewer has its own"),
             Aspect::Solver => dropped("settings of this program's core"),
             Aspect::Viewpoints => dropped("not written by this version"),
+            Aspect::Comments | Aspect::Unknown => no_meaning(),
         }
     }
 

@@ -47,7 +47,9 @@ fn fate(aspect: Aspect) -> Fate {
         | Aspect::UserIds
         | Aspect::ForceLooks
         | Aspect::Map
-        | Aspect::TimeSpeed => kept(""),
+        | Aspect::TimeSpeed
+        | Aspect::Comments => kept(""),
+        Aspect::Unknown => kept("as it is; other tools skip it or complain"),
         Aspect::BodyNames
         | Aspect::Groups
         | Aspect::Colors

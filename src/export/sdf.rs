@@ -7,7 +7,7 @@ use super::axes::{roll_pitch_yaw, z_up, z_up_rotation};
 use super::contact::Yielding;
 use super::format::{ExportError, Exported, Format, Source};
 use super::names;
-use super::report::{Fate, Report, approximated, dropped, kept, not_needed};
+use super::report::{Fate, Report, approximated, dropped, kept, no_meaning, not_needed};
 use super::slab::Slabs;
 use super::xml::{Xml, number, numbers, rgba, vector};
 use crate::scene::{Body, Motion, Shape};
@@ -224,6 +224,7 @@ impl Writer<'_> {
             Aspect::TimeSpeed => kept("as real_time_factor"),
             Aspect::Solver => dropped("settings of this program's core"),
             Aspect::Viewpoints => dropped("not written by this version"),
+            Aspect::Comments | Aspect::Unknown => no_meaning(),
         }
     }
 }

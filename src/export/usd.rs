@@ -8,7 +8,7 @@ use super::aspect::Aspect;
 use super::axes::quaternion;
 use super::format::{ExportError, Exported, Format, Source};
 use super::names;
-use super::report::{Fate, Report, approximated, dropped, kept, not_needed};
+use super::report::{Fate, Report, approximated, dropped, kept, no_meaning, not_needed};
 use super::xml::number;
 use crate::scene::{Body, Motion, Shape, escaped, rotation_matrix};
 
@@ -224,5 +224,6 @@ fn fate(aspect: Aspect) -> Fate {
         Aspect::TimeSpeed => dropped("nothing moves in the file"),
         Aspect::Solver => dropped("settings of this program's core"),
         Aspect::Viewpoints => dropped("not written by this version"),
+        Aspect::Comments | Aspect::Unknown => no_meaning(),
     }
 }

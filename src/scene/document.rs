@@ -11,7 +11,7 @@ use super::locate::Index;
 use super::read::{self, Meaning};
 use super::rules::MAX_FILE_BYTES;
 use super::source::{Source, position_in};
-use super::tree::{Children, View, tag};
+use super::tree::{Child, Children, View, tag};
 use super::viewpoint::{self, Viewpoint};
 use super::{Diagnostic, NodeKey, NumberStyle, Scene, Severity, locate, parse, save, shown, write};
 
@@ -139,6 +139,20 @@ impl Document {
     /// Writes the file atomically: temporary file beside it, sync, rename.
     pub fn save(&self, path: &Path) -> io::Result<()> {
         save::write_atomically(path, &self.to_bytes())
+    }
+
+    /// What stands outside any element, and the root.
+    pub(super) fn top(&self) -> impl Iterator<Item = &Child> {
+        let top = match &self.content {
+            Content::Tree(top) => Some(top),
+            Content::Broken(_) => None,
+        };
+        top.into_iter().flat_map(Children::iter)
+    }
+
+    /// What pieces of the tree were cut from.
+    pub(super) fn source_text(&self) -> &str {
+        &self.source.text
     }
 
     pub(super) fn of_tree(source: Arc<Source>, tree: Children) -> Self {

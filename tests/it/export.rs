@@ -27,6 +27,7 @@ const ALL: &str = r##"<PolyPhysicsXml Version="1.1">
   </Simulation>
   <Primitives>
     <!-- a comment -->
+    <Cone UserID="9" />
     <SoftObject UserID="1">
       <?polyscene name="a &quot;b&quot; &lt;c&gt; \ ::__d, e" group="g/h" color="#ff8000" locked="true"?>
       <Translation X="1" Y="2" Z="3" /><Bounce F32="0.5" /><Material Text="iron" /><Weight F32="2" />
@@ -188,7 +189,7 @@ fn nothing_is_lost_silently() {
         let Report { lines } = format.export(&document).expect("an export").report;
         let aspects: Vec<_> = lines.iter().map(|line| format!("{:?}", line.aspect)).collect();
         let different: BTreeSet<_> = aspects.iter().cloned().collect();
-        assert_eq!(different.len(), 21, "{}: {aspects:?}", format.id);
+        assert_eq!(different.len(), 23, "{}: {aspects:?}", format.id);
         assert!(lines.is_sorted_by_key(|line| line.verdict), "{}: losses last", format.id);
         for line in &lines {
             assert!(line.verdict == Verdict::Kept || !line.how.is_empty(), "{line}: no reason");

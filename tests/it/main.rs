@@ -93,6 +93,8 @@ mod render_pictures;
 mod render_verb;
 // Edits: the bytes each changes, what it refuses, keys.
 mod scene_edit;
+// The vocabulary of the format against reader, schemas and documentation.
+mod scene_schema;
 // Files: every sample, every encoding, what saving does to the disk.
 mod scene_files;
 // One small file per rule of the reader, and what is said about each.
