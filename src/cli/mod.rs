@@ -6,6 +6,7 @@ mod error;
 mod everyday;
 mod export;
 mod hard_cases;
+mod import;
 mod input;
 mod interrupt;
 mod limits;
@@ -35,6 +36,7 @@ pub use error::{CliError, say};
 pub use everyday::EverydayArgs;
 pub use export::ExportArgs;
 pub use hard_cases::HardCasesArgs;
+pub use import::ImportArgs;
 pub use input::{Examined, examine};
 #[cfg(feature = "render")]
 pub use render::RenderArgs;
@@ -72,6 +74,7 @@ pub enum Verb {
     Everyday(EverydayArgs),
     Export(ExportArgs),
     HardCases(HardCasesArgs),
+    Import(ImportArgs),
     #[cfg(feature = "render")]
     Render(RenderArgs),
     /// A picture needs the feature `render`
@@ -94,6 +97,7 @@ impl Verb {
             Self::Everyday(args) => everyday::everyday(args),
             Self::Export(args) => export::export(args),
             Self::HardCases(args) => hard_cases::hard_cases(args),
+            Self::Import(args) => import::import(args),
             #[cfg(feature = "render")]
             Self::Render(args) => render::render(args),
             #[cfg(not(feature = "render"))]

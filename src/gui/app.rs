@@ -49,7 +49,7 @@ pub struct App {
     transport: Transport,
     pub(super) problems: Problems,
     pub(super) accuracy: Accuracy,
-    dialogs: Dialogs,
+    pub(super) dialogs: Dialogs,
     toasts: Toasts,
     dock: Dock,
     start_closed: bool,
@@ -340,6 +340,7 @@ impl App {
                     ctx.request_repaint();
                 }
             }
+            WindowCommand::Export(format) => self.dialogs.open_export(format),
             WindowCommand::Help => self.dialogs.open_help(HelpPage::Window),
             WindowCommand::Shortcuts => self.dialogs.open_help(HelpPage::Keys),
             WindowCommand::About => self.dialogs.open_help(HelpPage::About),

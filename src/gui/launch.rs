@@ -225,7 +225,8 @@ impl App {
         }
         let busy = script.waits_for_simulation()
             || self.session().frame().state == RunState::Busy
-            || self.accuracy.is_running();
+            || self.accuracy.is_running()
+            || self.dialogs.are_working();
         if busy || script.wait_until.is_some_and(|until| Instant::now() < until) {
             ctx.request_repaint_after(Duration::from_millis(10));
             return true;

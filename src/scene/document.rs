@@ -3,6 +3,7 @@
 use std::fmt;
 use std::fs::File;
 use std::io::{self, Read};
+use std::ops::Range;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
@@ -133,6 +134,17 @@ impl Document {
                 encoding::encode(&text, self.source.encoding)
             }
             Content::Broken(bytes) => bytes.to_vec(),
+        }
+    }
+
+    /// The text of the file, and in it the place of each body and force in bytes, in order; without these for bytes that
+    /// are no well-formed XML.
+    pub fn text_with_places(&self) -> (String, Vec<(NodeKey, Range<usize>)>) {
+        // Bodies and forces are those elements that have been read by themselves.
+        self.meaning();
+        match &self.content {
+            Content::Tree(top) => write::children_with_places(top, &self.source.text),
+            Content::Broken(bytes) => (String::from_utf8_lossy(bytes).into_owned(), Vec::new()),
         }
     }
 

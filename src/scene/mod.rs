@@ -23,6 +23,7 @@ mod types;
 mod viewpoint;
 mod vocabulary;
 mod write;
+mod xml;
 
 use diagnostic::shown;
 
@@ -40,3 +41,4 @@ pub use schema::schema;
 pub use types::{Body, Force, ForceKind, Map, Motion, NodeKey, Scene, Shape, rotation_matrix};
 pub use viewpoint::Viewpoint;
 pub use vocabulary::{AttributeInfo, Content, ElementInfo, Need, Part, Since, VOCABULARY, ValueKind};
+pub use xml::XmlElement;

@@ -55,6 +55,8 @@ mod gui_cameras;
 mod gui_dock;
 // Editing in the window: by typing, by dragging, by commands, with undo.
 mod gui_edit;
+// Scenes for other programs out of the window and theirs into it.
+mod gui_export;
 // Files in the window: start card, open, save, unsaved changes, the window's own dialog.
 mod gui_files;
 // Handles in the views: found by name, dragged, typed into, each drag one undo point.
@@ -77,6 +79,8 @@ mod hard_cases;
 mod hard_invariance;
 // The verb `hard-cases` through the real program.
 mod hard_verb;
+// Scenes of other programs: places, masses, reports, errors, round trips.
+mod import;
 // The rules of the source tree: layers, file sizes, function sizes.
 mod layering;
 // Files of a layer import each other in one direction.
