@@ -7,52 +7,10 @@ use polyscene::import::{Imported, import, source_of};
 use polyscene::scene::{Body, Document, ForceKind, Motion, Scene, Shape, rotation_matrix};
 
 /// In the shape of MuJoCo's tutorials: a plane, balls on free joints, defaults in classes, degrees.
-const MJCF: &str = r##"<mujoco model="balls">
-  <compiler angle="degree"/>
-  <option gravity="0 0 -9.81" timestep="0.002"/>
-  <default>
-    <geom solref="-10000 -40" condim="1" rgba="0.5 0.5 0.5 1"/>
-    <default class="red"><geom rgba="1 0 0 1" size="0.2"/></default>
-  </default>
-  <asset><material name="grid" rgba="0 0 1 1"/></asset>
-  <worldbody>
-    <light pos="0 0 4"/>
-    <geom name="floor" type="plane" size="3 3 .1"/>
-    <geom name="ramp" type="box" size="1 .5 .25" pos="0 0 1" euler="0 30 0"/>
-    <body name="one" pos="-1 2 3" childclass="red"><freejoint/><geom mass="2"/></body>
-    <body name="two" pos="0 0 5"><joint type="free"/><geom type="sphere" size=".1" density="500" condim="3"/></body>
-    <body pos="2 0 0"><body name="post" pos="0 0 1"><geom size=".3" class="red" contype="0" conaffinity="0"/><geom size=".3" material="grid" rgba="0 1 0 1"/></body></body>
-  </worldbody>
-  <keyframe><key name="start" qpos="-1 2 3 1 0 0 0  0 0 6 1 0 0 0" qvel="1 2 3 0 0 0  0 0 0 4 0 0"/></keyframe>
-  <sensor><clock/></sensor>
-</mujoco>
-"##;
+const MJCF: &str = include_str!("../../scenes/foreign/balls.mjcf.xml");
 
 /// In the shape of Gazebo's examples: a sun, a ground plane, a falling sphere, a box.
-const SDF: &str = r#"<?xml version="1.0"?>
-<sdf version="1.6">
-  <world name="default">
-    <include><uri>model://sun</uri></include>
-    <include><uri>model://ground_plane</uri></include>
-    <gravity>0 0 -9.8</gravity>
-    <model name="ball">
-      <pose>1 2 3 0 0 1.5707963267948966</pose>
-      <link name="link">
-        <inertial><mass>5</mass></inertial>
-        <collision name="collision">
-          <pose>0.5 0 0 0 0 0</pose>
-          <geometry><sphere><radius>0.25</radius></sphere></geometry>
-          <surface><bounce><restitution_coefficient>0.8</restitution_coefficient><threshold>0.01</threshold></bounce></surface>
-        </collision>
-        <visual name="visual"><geometry><sphere><radius>0.25</radius></sphere></geometry><material><diffuse>1 0.5 0 1</diffuse></material></visual>
-      </link>
-    </model>
-    <model name="crate"><static>true</static><pose>-3 0 0.5 0 0 0</pose>
-      <link name="link"><collision name="collision"><geometry><box><size>1 2 1</size></box></geometry></collision></link>
-    </model>
-  </world>
-</sdf>
-"#;
+const SDF: &str = include_str!("../../scenes/foreign/ball.sdf");
 
 fn imported(text: &str) -> Imported {
     import(&Document::from_bytes(text.as_bytes()), false)
