@@ -8,6 +8,7 @@ pub mod editor;
 pub mod export;
 #[cfg(feature = "gui")]
 pub mod gui;
+pub mod import;
 pub mod random;
 pub mod record;
 #[cfg(feature = "render")]

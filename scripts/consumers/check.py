@@ -4,9 +4,11 @@ Usage: check.py CONSUMER PROGRAM WORK SCENE...   with CONSUMER mujoco, usd, gltf
 Exit code 0: all agree; 1: something does not; 3: the consumer is not here.
 """
 
+import csv
 import json
 import math
 import pathlib
+import struct
 import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
@@ -91,12 +93,28 @@ def far_matrix(a, b):
     return any(far(p, q) for p, q in zip(a, b))
 
 
-def export(program, scene, to, path):
-    command = [program, "export", str(scene), "--to", to, "--force", "-o", str(path)]
+def export(program, scene, to, path, *options):
+    command = [program, "export", str(scene), "--to", to, "--force", "-o", str(path), *options]
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode != 0:
         fail(f"{scene}: export to {to}: {done.stderr}")
     return done.returncode == 0
+
+
+# Scenes whose motion is looked at too, and how much of it.
+MOVING = {"bounce", "cradle", "drag", "bin"}
+MOTION = ["--until", "1.05", "--fps", "10"]
+
+
+def motion(program, scene):
+    """Places of the moving bodies at the frames, y up: label to a list of (time, place)."""
+    command = [program, "export", str(scene), "--to", "csv", *MOTION]
+    lines = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
+    tracks = {}
+    for row in csv.DictReader(lines):
+        place = [float(row[axis]) for axis in ("x_m", "y_m", "z_m")]
+        tracks.setdefault(row["label"], []).append((float(row["t_s"]), place))
+    return tracks
 
 
 def last_state(program, scene, until):
@@ -232,6 +250,30 @@ def check_usd(program, work, scenes):
             material = UsdPhysics.MaterialAPI(stage.GetPrimAtPath(materials[0]))
             if abs(material.GetRestitutionAttr().Get() - min(body.bounce, 1)) > TOLERANCE:
                 fail(f"{scene}: {prim.GetPath()} has another restitution")
+        if scene.stem in MOVING:
+            usd_motion(program, work, scene)
+
+
+def usd_motion(program, work, scene):
+    from pxr import Usd, UsdGeom, UsdPhysics
+
+    path = work / f"{scene.stem}-motion.usda"
+    if not export(program, scene, "usd", path, *MOTION):
+        return
+    stage = Usd.Stage.Open(str(path))
+    tracks = motion(program, scene)
+    moving = [prim for prim in stage.Traverse() if prim.HasAPI(UsdPhysics.RigidBodyAPI)]
+    if len(moving) != len(tracks):
+        fail(f"{scene}: {len(moving)} bodies move instead of {len(tracks)}")
+    for prim in moving:
+        track = tracks[prim.GetCustomDataByKey("UserID")]
+        for time, place in track:
+            code = Usd.TimeCode(time * stage.GetTimeCodesPerSecond())
+            world = UsdGeom.Xformable(prim).ComputeLocalToWorldTransform(code)
+            if far(list(world.ExtractTranslation()), place):
+                fail(f"{scene}: {prim.GetPath()} is elsewhere at {time} s")
+        if not UsdPhysics.RigidBodyAPI(prim).GetKinematicEnabledAttr().Get():
+            fail(f"{scene}: {prim.GetPath()} would be moved by an engine")
 
 
 # ---------------------------------------------------------------- glTF
@@ -259,6 +301,11 @@ def check_gltf(program, work, scenes):
                 fail(f"{scene}: {node['name']} is elsewhere")
             if body.dynamic and node["extras"]["mass_kg"] != body.mass:
                 fail(f"{scene}: {node['name']} has another mass")
+        if scene.stem in MOVING:
+            moving = work / f"{scene.stem}-motion.glb"
+            if export(program, scene, "gltf", moving, *MOTION):
+                files.append(moving.name)
+                gltf_motion(program, scene, moving.read_bytes())
     script = """
       const fs = require('fs'), validator = require('gltf-validator');
       (async () => {
@@ -272,6 +319,31 @@ def check_gltf(program, work, scenes):
     done = subprocess.run(["node", "-e", script, *files], cwd=work, capture_output=True, text=True)
     if done.returncode != 0 or done.stdout:
         fail(f"gltf-validator: {done.stdout}{done.stderr}")
+
+
+def gltf_motion(program, scene, data):
+    """The animation's keys against the places at the frames, to the digits of a 32-bit number."""
+    length = int.from_bytes(data[12:16], "little")
+    root, buffer = json.loads(data[20 : 20 + length]), data[20 + length + 8 :]
+
+    def floats(accessor, width):
+        accessor = root["accessors"][accessor]
+        start = root["bufferViews"][accessor["bufferView"]]["byteOffset"]
+        values = struct.unpack_from(f"<{width * accessor['count']}f", buffer, start)
+        return [values[at : at + width] for at in range(0, len(values), width)]
+
+    (animation,) = root["animations"]
+    tracks = motion(program, scene)
+    if len(animation["channels"]) != len(tracks):
+        fail(f"{scene}: {len(animation['channels'])} channels instead of {len(tracks)}")
+    for channel in animation["channels"]:
+        sampler = animation["samplers"][channel["sampler"]]
+        node = root["nodes"][channel["target"]["node"]]
+        track = tracks[str(node["extras"]["UserID"])]
+        times, places = floats(sampler["input"], 1), floats(sampler["output"], 3)
+        for (time, place), (key,), value in zip(track, times, places, strict=True):
+            if abs(time - key) > 1e-6 or far(list(value), place):
+                fail(f"{scene}: {node['name']} is elsewhere at {time} s")
 
 
 # ---------------------------------------------------------------- SDF

@@ -17,9 +17,9 @@ WINDOW_PACKAGES=(
   libwayland-client0 libwayland-egl1 libdbus-1-3
 )
 
-# To test: a display in memory with its start-up helper, and the linter of these scripts.
+# To test: a display in memory with its start-up helper, the linter of these scripts, and a checker of XML schemas.
 # shellcheck disable=SC2034
-TEST_PACKAGES=(xvfb xauth shellcheck)
+TEST_PACKAGES=(xvfb xauth shellcheck libxml2-utils)
 
 note() { printf '%s\n' "$*" >&2; }
 

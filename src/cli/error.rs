@@ -23,6 +23,9 @@ pub enum CliError {
     /// `--max-events` or `--max-wall`.
     #[error("stopped early at t = {time} s: {why}; what was written is complete up to there")]
     Stopped { time: f64, why: Exceeded },
+    /// The same, where nothing was written.
+    #[error("stopped early at t = {time} s: {why}; nothing was written")]
+    Unwritten { time: f64, why: Exceeded },
     /// The same, of a study.
     #[error("stopped early: {0}; the report holds what was done so far")]
     StudyStopped(String),
@@ -41,7 +44,7 @@ impl CliError {
             Self::Scene(_) => 1,
             Self::Usage(_) => 2,
             Self::Fault(_) => 3,
-            Self::Stopped { .. } | Self::StudyStopped(_) => 4,
+            Self::Stopped { .. } | Self::Unwritten { .. } | Self::StudyStopped(_) => 4,
             Self::Interrupted { .. } | Self::Cancelled => 130,
         }
     }

@@ -2,14 +2,17 @@
 
 use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
 
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser};
 
+use super::limits::LimitArgs;
 use super::output::{self, is_stdout};
-use super::{CliError, input};
-use crate::export::{Exported, FORMATS, Format, Report};
-use crate::scene::{check_writable, shown_path, write_atomically};
+use super::{CliError, input, interrupt, number};
+use crate::export::{ExportError, Exported, FORMATS, Format, Frames, Report, When};
+use crate::record::Watch;
+use crate::scene::{Document, check_writable, shown_path, write_atomically};
 use crate::sim::Method;
 
 /// Write a scene for another program
@@ -19,7 +22,7 @@ use crate::sim::Method;
 #[derive(Debug, Args)]
 #[command(
     after_help = "Examples:\n  polyscene export scene.xml --to mjcf -o scene.mjcf.xml\n  polyscene export scene.xml --to \
-                  csv | head\n  polyscene export scene.xml --to polyphysics-1.0 --strict -o old.xml"
+                  csv | head\n  polyscene export scene.xml --to gltf --until 5 -o motion.glb\n  polyscene export scene.xml --to sdf --at 2.5 -o later.sdf\n  polyscene export scene.xml --to polyphysics-1.0 --strict -o old.xml"
 )]
 pub struct ExportArgs {
     /// Scene file; `-` is standard input
@@ -28,6 +31,24 @@ pub struct ExportArgs {
     /// The format
     #[arg(long, value_name = "FORMAT", value_parser = formats())]
     to: String,
+
+    /// Export the state at this time instead of the start, in seconds
+    #[arg(long, value_name = "S", value_parser = number::any_seconds, allow_negative_numbers = true,
+          conflicts_with_all = ["from", "until", "fps"])]
+    at: Option<f64>,
+
+    /// Export the motion up to this time, in seconds: an animation for gltf and usd, rows for csv
+    #[arg(long, value_name = "S", value_parser = number::seconds, allow_negative_numbers = true)]
+    until: Option<f64>,
+
+    /// When the motion begins, in seconds; 0 unless given
+    #[arg(long, value_name = "S", value_parser = number::any_seconds, allow_negative_numbers = true,
+          requires = "until")]
+    from: Option<f64>,
+
+    /// Frames of the motion per second; 60 unless given
+    #[arg(long, value_name = "N", allow_negative_numbers = true, requires = "until")]
+    fps: Option<f64>,
 
     /// File to write; `-` is standard output
     #[arg(short, long, value_name = "FILE", default_value = "-")]
@@ -40,7 +61,13 @@ pub struct ExportArgs {
     /// Write nothing and end with exit code 1 if something is approximated or dropped
     #[arg(long)]
     strict: bool,
+
+    #[command(flatten)]
+    limits: LimitArgs,
 }
+
+/// Frames per second of a motion, as screens have.
+const USUAL_FPS: f64 = 60.0;
 
 fn formats() -> PossibleValuesParser {
     let value = |format: &Format| {
@@ -55,6 +82,8 @@ pub(super) fn export(args: &ExportArgs) -> Result<(), CliError> {
     let format = format.ok_or_else(|| CliError::Usage(format!("there is no format {}", args.to)))?;
     refuse_bad_output(args, format)?;
     let name = input::display_name(&args.scene);
+    let when = args.when()?;
+    let watchdog = args.limits.watchdog();
     let examined = input::open(&args.scene, Method::Exact)?;
     for line in examined.lines(&name) {
         super::say(line);
@@ -62,9 +91,8 @@ pub(super) fn export(args: &ExportArgs) -> Result<(), CliError> {
     if examined.error_count() > 0 {
         return Err(CliError::Scene(format!("{name} cannot be exported: it has errors")));
     }
-    let exported = format.export(&examined.document);
-    let Exported { bytes, report } =
-        exported.map_err(|error| CliError::Usage(format!("{name} cannot be exported: {error}")))?;
+    let Exported { bytes, report } = exported(args, format, &examined.document, when)?;
+    drop(watchdog);
     for line in &report.lines {
         super::say(line);
     }
@@ -72,6 +100,52 @@ pub(super) fn export(args: &ExportArgs) -> Result<(), CliError> {
         refuse_losses(&name, format, &report)?;
     }
     write(&args.output, &bytes)
+}
+
+impl ExportArgs {
+    fn when(&self) -> Result<When, CliError> {
+        if let Some(time) = self.at {
+            return if time < 0.0 {
+                Err(CliError::Usage("--at must not be before 0 s".into()))
+            } else {
+                Ok(When::At(time))
+            };
+        }
+        let Some(to) = self.until else { return Ok(When::Start) };
+        let frames = Frames { from: self.from.unwrap_or(0.0), to, fps: self.fps.unwrap_or(USUAL_FPS) };
+        match frames.refusal() {
+            Some(refusal) => Err(CliError::Usage(refusal)),
+            None => Ok(When::Motion(frames)),
+        }
+    }
+}
+
+/// Writes the scene, after simulating it where that is asked for.
+fn exported(
+    args: &ExportArgs,
+    format: &Format,
+    document: &Document,
+    when: When,
+) -> Result<Exported, CliError> {
+    let interrupt = interrupt::on_interrupt();
+    let watch = Watch::start(args.limits.limits());
+    let mut over = None;
+    let mut go_on = |_part: f64, events: u64| {
+        over = watch.exceeded(events);
+        over.is_none() && !interrupt.load(Ordering::Relaxed)
+    };
+    let exported = format.export_when(document, when, &mut go_on);
+    exported.map_err(|error| match (error, over) {
+        (ExportError::Cancelled { time }, Some(why)) => CliError::Unwritten { time, why },
+        (ExportError::Cancelled { time }, None) => CliError::Interrupted { time },
+        (error @ ExportError::NoMotion(_), _) => {
+            let able: Vec<_> = FORMATS.iter().filter(|format| format.moves).map(|format| format.id).collect();
+            CliError::Usage(format!("--until: {error}; {} can hold it", able.join(", ")))
+        }
+        (error, _) => {
+            CliError::Usage(format!("{} cannot be exported: {error}", input::display_name(&args.scene)))
+        }
+    })
 }
 
 /// Before the work: a place that must not or cannot be written.

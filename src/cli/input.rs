@@ -31,8 +31,13 @@ impl Examined {
 
 /// Reads a file, or standard input for `-`, and examines it. The simulation steps by `method`.
 pub fn open(path: &Path, method: Method) -> Result<Examined, CliError> {
+    Ok(examine(read(path)?, method))
+}
+
+/// Reads a file, or standard input for `-`.
+pub(super) fn read(path: &Path) -> Result<Document, CliError> {
     if path.as_os_str() != "-" {
-        return Ok(examine(Document::open(path), method));
+        return Ok(Document::open(path));
     }
     let mut bytes = Vec::new();
     std::io::stdin()
@@ -40,7 +45,7 @@ pub fn open(path: &Path, method: Method) -> Result<Examined, CliError> {
         .take(STDIN_LIMIT)
         .read_to_end(&mut bytes)
         .map_err(|error| CliError::Usage(format!("cannot read standard input: {error}")))?;
-    Ok(examine(Document::from_bytes(&bytes), method))
+    Ok(Document::from_bytes(&bytes))
 }
 
 /// What to call a scene file in messages.
@@ -75,7 +80,7 @@ fn placed(document: &Document, mut problem: Diagnostic) -> Diagnostic {
     problem
 }
 
-fn problem_line(file: &str, problem: &Diagnostic) -> String {
+pub(super) fn problem_line(file: &str, problem: &Diagnostic) -> String {
     let separator = if problem.position.is_some() { ":" } else { ": " };
     format!("{file}{separator}{problem}")
 }

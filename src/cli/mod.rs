@@ -6,6 +6,7 @@ mod error;
 mod everyday;
 mod export;
 mod hard_cases;
+mod import;
 mod input;
 mod interrupt;
 mod limits;
@@ -17,6 +18,7 @@ mod output;
 mod render;
 mod run;
 mod samples;
+mod schema;
 mod study;
 
 use std::ffi::OsString;
@@ -34,10 +36,12 @@ pub use error::{CliError, say};
 pub use everyday::EverydayArgs;
 pub use export::ExportArgs;
 pub use hard_cases::HardCasesArgs;
+pub use import::ImportArgs;
 pub use input::{Examined, examine};
 #[cfg(feature = "render")]
 pub use render::RenderArgs;
 pub use run::RunArgs;
+pub use schema::SchemaArgs;
 pub use study::StudyArgs;
 
 /// Design 3D rigid body scenes, step their simulation event by event, and see how accurate it is.
@@ -70,6 +74,7 @@ pub enum Verb {
     Everyday(EverydayArgs),
     Export(ExportArgs),
     HardCases(HardCasesArgs),
+    Import(ImportArgs),
     #[cfg(feature = "render")]
     Render(RenderArgs),
     /// A picture needs the feature `render`
@@ -79,6 +84,7 @@ pub enum Verb {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         arguments: Vec<OsString>,
     },
+    Schema(SchemaArgs),
     Study(StudyArgs),
 }
 
@@ -91,10 +97,12 @@ impl Verb {
             Self::Everyday(args) => everyday::everyday(args),
             Self::Export(args) => export::export(args),
             Self::HardCases(args) => hard_cases::hard_cases(args),
+            Self::Import(args) => import::import(args),
             #[cfg(feature = "render")]
             Self::Render(args) => render::render(args),
             #[cfg(not(feature = "render"))]
             Self::Render { .. } => Err(CliError::no_pictures()),
+            Self::Schema(args) => schema::schema_of(args),
             Self::Study(args) => study::study(args),
         }
     }

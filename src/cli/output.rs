@@ -135,6 +135,13 @@ impl LineSink {
         if self.lines.len() >= BATCH { self.flush() } else { Ok(()) }
     }
 
+    /// Appends one line of text.
+    pub fn line(&mut self, text: &str) -> Result<(), CliError> {
+        self.lines.extend(text.as_bytes());
+        self.lines.push(b'\n');
+        if self.lines.len() >= BATCH { self.flush() } else { Ok(()) }
+    }
+
     /// Hands all rows so far to the system.
     pub fn flush(&mut self) -> Result<(), CliError> {
         let before = self.length();

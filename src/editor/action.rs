@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::{Answer, Gesture, Place, SessionCommand};
+use super::{Answer, ExportedFile, Gesture, Place, SessionCommand};
 use crate::design::{Plan, Repair};
 use crate::record::{EventRow, Goal};
 use crate::scene::{Edit, NodeKey};
@@ -54,6 +54,8 @@ pub enum Action {
     OpenPath(PathBuf),
     /// The answer to [`super::Request::ChooseSavePath`].
     SaveTo(PathBuf),
+    /// Where a scene for another program goes.
+    WriteExport(PathBuf, ExportedFile),
     /// A file dialog was closed without an answer.
     DialogCancelled,
     Answer(Answer),

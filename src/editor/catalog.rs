@@ -32,7 +32,17 @@ pub const COMMANDS: &[CommandInfo] = &[
     row(Menu::File, 1, "save_as", "Save as…", "Writes the scene to another file")
         .session(SessionCommand::SaveAs)
         .keys(&[Shortcut::ctrl_shift('S')]),
-    row(Menu::File, 2, "quit", "Quit", "Leaves the application; asks first when something is not saved")
+    row(
+        Menu::File,
+        2,
+        "export",
+        "Export…",
+        "Writes the scene for another program, and says what it cannot be told",
+    )
+    .window(WindowCommand::Export(None))
+    .keys(&[Shortcut::ctrl('E')])
+    .when(Session::has_scene),
+    row(Menu::File, 3, "quit", "Quit", "Leaves the application; asks first when something is not saved")
         .session(SessionCommand::Quit)
         .keys(&[Shortcut::ctrl('Q')]),
     //

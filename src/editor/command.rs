@@ -128,6 +128,8 @@ pub enum WindowCommand {
     DesignTool(usize),
     /// Opens the name of what was selected last for typing.
     Rename,
+    /// Opens the dialog that writes the scene for another program; with the n-th of [`crate::export::FORMATS`] chosen.
+    Export(Option<usize>),
     Help,
     Shortcuts,
     Palette,

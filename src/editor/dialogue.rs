@@ -2,8 +2,10 @@
 //! window. Plain data, so that the guard of unsaved changes is tested without widgets.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use super::Recovered;
+use crate::import::ImportReport;
 use crate::scene::{NumberStyle, shown_path};
 
 /// What replaces or closes the document once nothing can be lost.
@@ -13,6 +15,8 @@ pub enum Intent {
     OpenPath(PathBuf),
     OpenSample(usize),
     Reload,
+    /// A file of another program, without what cannot be here.
+    ImportWithout(PathBuf),
     Restore(Recovered),
     Quit,
 }
@@ -24,6 +28,8 @@ pub enum Question {
     UnsavedChanges { title: String, then: Intent },
     /// The file changed since it was read or written, and saving would lose that.
     ChangedOnDisk { path: PathBuf, then: Option<Intent> },
+    /// A file of another program has what cannot be here.
+    CannotImport { path: PathBuf, problem: String, more: usize },
     /// An earlier run ended with unsaved work.
     Recover(Recovered),
 }
@@ -36,6 +42,7 @@ pub enum Answer {
     Discard,
     Restore,
     Later,
+    LeaveOut,
     Cancel,
 }
 
@@ -49,6 +56,11 @@ pub enum Request {
         directory: Option<PathBuf>,
         file_name: String,
     },
+    /// What became of a file of another program.
+    ShowImport {
+        title: String,
+        report: Arc<ImportReport>,
+    },
     SetClipboard(String),
     /// Answered by [`super::Action::Paste`].
     ReadClipboard,
@@ -60,6 +72,7 @@ impl Question {
         match self {
             Self::UnsavedChanges { .. } => "Unsaved changes",
             Self::ChangedOnDisk { .. } => "File changed on disk",
+            Self::CannotImport { .. } => "Not all can be imported",
             Self::Recover(_) => "Recover unsaved work",
         }
     }
@@ -72,6 +85,14 @@ impl Question {
                  is there now.",
                 shown_path(path)
             ),
+            Self::CannotImport { path, problem, more } => {
+                let others = match more {
+                    0 => String::new(),
+                    1 => " and one thing more".to_owned(),
+                    more => format!(" and {more} things more"),
+                };
+                format!("{}:{problem}{others}.", shown_path(path))
+            }
             Self::Recover(found) => format!(
                 "The last session ended without saving “{}” ({}). Restoring opens that work; the file itself \
                  is not touched until you save.",
@@ -86,6 +107,7 @@ impl Question {
         match self {
             Self::UnsavedChanges { .. } => &[Answer::Save, Answer::Discard, Answer::Cancel],
             Self::ChangedOnDisk { .. } => &[Answer::SaveAs, Answer::Overwrite, Answer::Cancel],
+            Self::CannotImport { .. } => &[Answer::Cancel, Answer::LeaveOut],
             Self::Recover(_) => &[Answer::Restore, Answer::Later, Answer::Discard],
         }
     }
@@ -93,7 +115,9 @@ impl Question {
     /// What Escape and closing the dialog mean.
     pub fn dismissal(&self) -> Answer {
         match self {
-            Self::UnsavedChanges { .. } | Self::ChangedOnDisk { .. } => Answer::Cancel,
+            Self::UnsavedChanges { .. } | Self::ChangedOnDisk { .. } | Self::CannotImport { .. } => {
+                Answer::Cancel
+            }
             Self::Recover(_) => Answer::Later,
         }
     }
@@ -108,6 +132,7 @@ impl Answer {
             Self::Discard => "Discard",
             Self::Restore => "Restore",
             Self::Later => "Ask later",
+            Self::LeaveOut => "Open without it",
             Self::Cancel => "Cancel",
         }
     }

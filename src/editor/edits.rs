@@ -139,19 +139,28 @@ impl Session {
     /// from them.
     pub(super) fn take_state_as_start(&mut self) -> Outcome {
         self.run.pause();
-        let Some(scene) = self.scene() else { return Outcome::no_scene() };
-        let there = body_keys(scene);
-        let mut edits = Vec::new();
-        for now in self.run.frame.bodies.iter().filter(|now| there.contains(&now.key)) {
-            edits.push(Edit::Body { key: now.key, change: BodyChange::Position(now.position) });
-            edits.push(Edit::Body { key: now.key, change: BodyChange::Velocity(now.velocity) });
+        if self.scene().is_none() {
+            return Outcome::no_scene();
         }
+        let edits = self.state_edits();
         let label = format!("Take state at {:.6} s as start", self.run.frame.time);
         let outcome = self.edit_as(&Edit::All(edits), None, Some(label));
         if outcome == Outcome::Done {
             self.reset();
         }
         outcome
+    }
+
+    /// What makes the poses and velocities of the frame those of the document.
+    pub(super) fn state_edits(&self) -> Vec<Edit> {
+        let Some(scene) = self.scene() else { return Vec::new() };
+        let there = body_keys(scene);
+        let mut edits = Vec::new();
+        for now in self.run.frame.bodies.iter().filter(|now| there.contains(&now.key)) {
+            edits.push(Edit::Body { key: now.key, change: BodyChange::Position(now.position) });
+            edits.push(Edit::Body { key: now.key, change: BodyChange::Velocity(now.velocity) });
+        }
+        edits
     }
 
     pub(super) fn has_scene(&self) -> Result<(), &'static str> {

@@ -40,6 +40,7 @@ impl Session {
             Action::SetMethod(method) => self.set_method(method),
             Action::OpenPath(path) => self.ask_then(Intent::OpenPath(path)),
             Action::SaveTo(path) => self.save_to(path),
+            Action::WriteExport(path, file) => return self.write_export(&path, &file),
             Action::DialogCancelled => self.talk.after_save = None,
             Action::Answer(answer) => self.answer(answer),
             Action::Paste(text) => return self.paste(&text, false),

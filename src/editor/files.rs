@@ -7,6 +7,7 @@ use super::disk::{DiskStamp, has_changed};
 use super::open_document::OpenFile;
 use super::travel::Travel;
 use super::{Notice, Outcome, Recovered, SAMPLES, Session};
+use crate::import;
 use crate::scene::{Document, shown_path};
 
 impl Session {
@@ -33,6 +34,9 @@ impl Session {
             (Some(Question::UnsavedChanges { then, .. }), Answer::Discard) => self.carry_on(then),
             (Some(Question::ChangedOnDisk { path, then }), Answer::Overwrite) => self.write(&path, then),
             (Some(Question::ChangedOnDisk { then, .. }), Answer::SaveAs) => self.save_as(then),
+            (Some(Question::CannotImport { path, .. }), Answer::LeaveOut) => {
+                self.carry_on(Intent::ImportWithout(path));
+            }
             (Some(Question::Recover(found)), Answer::Restore) => self.ask_then(Intent::Restore(found)),
             (Some(Question::Recover(found)), Answer::Discard) => {
                 found.forget();
@@ -43,7 +47,7 @@ impl Session {
         }
     }
 
-    fn carry_on(&mut self, intent: Intent) {
+    pub(super) fn carry_on(&mut self, intent: Intent) {
         match intent {
             Intent::New(style) => self.replace(Document::new(style), OpenFile::untitled("Untitled"), true),
             Intent::OpenPath(path) => self.open(path),
@@ -58,6 +62,7 @@ impl Session {
                     self.open(path);
                 }
             }
+            Intent::ImportWithout(path) => self.open_foreign(&path, &Document::open(&path), true),
             Intent::Restore(found) => self.restore(&found),
             Intent::Quit => {
                 self.forget_recovery();
@@ -78,6 +83,9 @@ impl Session {
             }
         };
         let document = Document::open(&path);
+        if import::source_of(&document).is_some() {
+            return self.open_foreign(&path, &document, false);
+        }
         let unread =
             document.diagnostics().iter().find(|problem| problem.is_error() && problem.position.is_none());
         if let (None, Some(problem)) = (document.scene(), unread) {
@@ -124,7 +132,7 @@ impl Session {
         self.talk.notices.push(Notice::info("Restored. Save to keep it."));
     }
 
-    fn replace(&mut self, document: Document, file: OpenFile, saved: bool) {
+    pub(super) fn replace(&mut self, document: Document, file: OpenFile, saved: bool) {
         self.forget_recovery();
         self.run.forget();
         if file.path.is_none() || file.path != self.doc.file.path {
@@ -198,7 +206,7 @@ impl Session {
         }
     }
 
-    fn remember(&mut self, path: &Path) {
+    pub(super) fn remember(&mut self, path: &Path) {
         self.kept.settings.add_recent(path);
         self.store_settings();
     }

@@ -14,6 +14,7 @@ mod disk;
 mod drag;
 mod edits;
 mod execute;
+mod exporting;
 mod expression;
 mod fields;
 mod files;
@@ -51,6 +52,7 @@ pub use command::{
 pub use command_info::CommandInfo;
 pub use dialogue::{Answer, Intent, Question, Request};
 pub use drag::Drag;
+pub use exporting::ExportedFile;
 pub use expression::{Typed, parse_angle, parse_number};
 pub use fields::{BODY_FIELDS, FORCE_FIELDS, Field, SCENE_FIELDS, Shared, allows, limits, shared};
 pub use history::Gesture;

@@ -2,6 +2,7 @@
 //! added here is lost nowhere silently.
 
 use super::format::Source;
+use super::motion::{Animation, Frames};
 use crate::scene::{Body, Force, ForceKind, Motion, PARAMS, Shape, SimParams};
 
 /// One thing that scenes say.
@@ -33,6 +34,11 @@ pub enum Aspect {
     TimeSpeed,
     Solver,
     Viewpoints,
+    Comments,
+    /// How the scene goes on, sampled at frames.
+    Motion,
+    /// Elements, attributes, texts and instructions that the format does not know.
+    Unknown,
 }
 
 pub(super) struct AspectInfo {
@@ -119,6 +125,15 @@ pub(super) const ASPECTS: &[AspectInfo] = &[
     row(Aspect::Viewpoints, "saved viewpoint", "saved viewpoints", |s| {
         s.document.viewpoints().into_iter().map(|viewpoint| viewpoint.name).collect()
     }),
+    row(Aspect::Comments, "comment", "comments", |s| vec![String::new(); s.foreign.comments]),
+    row(Aspect::Motion, "motion", "", |s| {
+        let of = |motion: &Animation| {
+            let Frames { from, to, .. } = motion.frames;
+            format!("{from} s to {to} s in {} frames", motion.times.len())
+        };
+        s.motion.iter().map(|motion| of(motion)).collect()
+    }),
+    row(Aspect::Unknown, "piece unknown here", "pieces unknown here", |s| s.foreign.unknown.clone()),
 ];
 
 fn moves(body: &Body) -> bool {

@@ -72,6 +72,11 @@ pub(super) fn damping_ratio(restitution: f64) -> f64 {
     0.5 * (low + high)
 }
 
+/// The inverse of the above: how fast a body leaves a spring of damping ratio ζ, as a share of how fast it came.
+pub fn restitution_of_damping(zeta: f64) -> f64 {
+    if zeta >= MOST_DAMPED { 0.0 } else { restitution_of(zeta) }
+}
+
 fn restitution_of(zeta: f64) -> f64 {
     let square = 1.0 - zeta * zeta;
     let root = libm::sqrt(square.abs());

@@ -1,8 +1,10 @@
 //! A table of the bodies, one row each (RFC 4180), for spreadsheets and scripts.
 
 use super::aspect::Aspect;
-use super::format::{ExportError, Exported, Format, Source};
-use super::report::{Fate, Report, dropped, kept, not_needed};
+use super::error::ExportError;
+use super::format::{Exported, Format, Source};
+use super::motion::{Animation, Sample};
+use super::report::{Fate, Report, dropped, kept, no_meaning, not_needed};
 use super::xml::number;
 use crate::scene::{Body, Motion, Shape};
 
@@ -11,6 +13,7 @@ pub(super) const FORMAT: Format = Format {
     name: "Table of bodies (CSV)",
     extension: "csv",
     is_binary: false,
+    moves: true,
     holds: "all about each body; no forces",
     write,
 };
@@ -56,10 +59,39 @@ const COLUMNS: &[(&str, Cell)] = &[
 ];
 
 fn write(source: &Source<'_>) -> Result<Exported, ExportError> {
+    let lines = match source.motion {
+        None => bodies(source),
+        Some(motion) => motion_of(source, motion),
+    };
+    Ok(Exported { bytes: lines.into_bytes(), report: Report::of(source, |aspect| fate(source, aspect)) })
+}
+
+fn bodies(source: &Source<'_>) -> String {
     let head = COLUMNS.iter().map(|(name, _)| (*name).to_owned()).collect::<Vec<_>>();
     let rows = source.scene.bodies.iter().map(|body| COLUMNS.iter().map(|(_, cell)| cell(body)).collect());
     let lines = std::iter::once(head).chain(rows).map(|cells: Vec<String>| cells.join(",") + "\r\n");
-    Ok(Exported { bytes: lines.collect::<String>().into_bytes(), report: Report::of(source, fate) })
+    lines.collect()
+}
+
+/// One row for each moving body at each frame, frame by frame.
+fn motion_of(source: &Source<'_>, motion: &Animation) -> String {
+    let mut text = "t_s,label,name,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s\r\n".to_owned();
+    let named = |body: &Body| format!("{},{}", body.label, self::text(body.name.as_deref()));
+    let tracks = source.scene.bodies.iter().filter_map(|body| Some((named(body), motion.of(body.key)?)));
+    let tracks: Vec<_> = tracks.collect();
+    for (frame, time) in motion.times.iter().enumerate() {
+        let time = number(*time);
+        for (name, track) in &tracks {
+            let Some(Sample { position, velocity }) = track.get(frame) else { continue };
+            let numbers = [position.to_array(), velocity.to_array()]
+                .concat()
+                .iter()
+                .map(|v| number(*v))
+                .collect::<Vec<_>>();
+            text.push_str(&format!("{time},{name},{}\r\n", numbers.join(",")));
+        }
+    }
+    text
 }
 
 /// In quotes where it holds what parts cells or lines.
@@ -83,8 +115,14 @@ fn velocity(body: &Body, axis: usize) -> String {
     }
 }
 
-fn fate(aspect: Aspect) -> Fate {
+fn fate(source: &Source<'_>, aspect: Aspect) -> Fate {
+    const NO_MOTION: [Aspect; 5] =
+        [Aspect::BodyNames, Aspect::UserIds, Aspect::Motion, Aspect::Comments, Aspect::Unknown];
     match aspect {
+        // The table of a motion has nothing else.
+        other if source.motion.is_some() && !NO_MOTION.contains(&other) => {
+            dropped("a table of motion has places and velocities of moving bodies only")
+        }
         Aspect::Spheres
         | Aspect::Plates
         | Aspect::Masses
@@ -96,6 +134,7 @@ fn fate(aspect: Aspect) -> Fate {
         | Aspect::Hidden
         | Aspect::Locked
         | Aspect::Materials => kept(""),
+        Aspect::Motion => kept("at the frames"),
         Aspect::UserIds => kept("of bodies"),
         Aspect::Unbuilt => dropped("the shape's name is kept, its sizes are not"),
         Aspect::Frictionless => not_needed("a table has no laws"),
@@ -104,5 +143,6 @@ fn fate(aspect: Aspect) -> Fate {
         }
         Aspect::Map => not_needed("a search grid, on which no result depends"),
         Aspect::TimeSpeed | Aspect::Solver | Aspect::Viewpoints => dropped("the table has bodies only"),
+        Aspect::Comments | Aspect::Unknown => no_meaning(),
     }
 }

@@ -2,8 +2,10 @@
 
 use glam::DVec3;
 
+use super::error::ExportError;
+use super::motion::{Animation, When, simulated};
 use super::report::Report;
-use crate::scene::{Body, Document, EditError, ForceKind, Scene};
+use crate::scene::{Body, Document, ForceKind, Foreign, Scene};
 
 /// One way to write a scene for another program.
 #[derive(Debug)]
@@ -14,6 +16,8 @@ pub struct Format {
     /// Of its files, without the dot.
     pub extension: &'static str,
     pub is_binary: bool,
+    /// Whether it can hold motion, and not a start only.
+    pub moves: bool,
     /// What it can hold, in a few words.
     pub holds: &'static str,
     pub(super) write: fn(&Source<'_>) -> Result<Exported, ExportError>,
@@ -22,8 +26,27 @@ pub struct Format {
 impl Format {
     /// Writes the scene of a document. It must have one, without errors.
     pub fn export(&self, document: &Document) -> Result<Exported, ExportError> {
+        self.written(document, None)
+    }
+
+    /// As [`Self::export`], at another time or with its motion. `go_on` hears how much of the simulation is done, from
+    /// 0 to 1, and how many events there were, and ends it by `false`.
+    pub fn export_when(
+        &self,
+        document: &Document,
+        when: When,
+        go_on: &mut dyn FnMut(f64, u64) -> bool,
+    ) -> Result<Exported, ExportError> {
+        if matches!(when, When::Motion(_)) && !self.moves {
+            return Err(ExportError::NoMotion(self.name));
+        }
+        let (document, motion) = simulated(document, when, go_on)?;
+        self.written(&document, motion.as_ref())
+    }
+
+    fn written(&self, document: &Document, motion: Option<&Animation>) -> Result<Exported, ExportError> {
         let scene = document.scene().filter(|_| !document.has_errors()).ok_or(ExportError::NoScene)?;
-        (self.write)(&Source { document, scene })
+        (self.write)(&Source { document, scene, foreign: document.foreign(), motion })
     }
 }
 
@@ -34,25 +57,12 @@ pub struct Exported {
     pub report: Report,
 }
 
-/// Why nothing was written.
-#[derive(Debug, thiserror::Error)]
-pub enum ExportError {
-    #[error("the scene has errors")]
-    NoScene,
-    #[error("{0}")]
-    Edit(#[from] EditError),
-    #[error("{0}")]
-    Xml(#[from] std::io::Error),
-    #[error("{0}")]
-    Json(#[from] serde_json::Error),
-    #[error("the file would be larger than 4 GiB, the most that the format allows")]
-    TooLarge,
-}
-
 /// What a writer is given.
 pub(super) struct Source<'a> {
     pub document: &'a Document,
     pub scene: &'a Scene,
+    pub foreign: Foreign,
+    pub motion: Option<&'a Animation>,
 }
 
 impl Source<'_> {

@@ -5,10 +5,12 @@ use serde_json::{Map, Value, json};
 
 use super::aspect::Aspect;
 use super::axes::quaternion;
-use super::format::{ExportError, Exported, Format, Source};
+use super::error::ExportError;
+use super::format::{Exported, Format, Source};
 use super::mesh::{self, Mesh};
+use super::motion::Animation;
 use super::names;
-use super::report::{Fate, Report, approximated, dropped, kept, not_needed};
+use super::report::{Fate, Report, approximated, dropped, kept, no_meaning, not_needed};
 use crate::scene::{Body, ForceKind, Motion, Shape, Viewpoint, rotation_matrix};
 
 pub(super) const FORMAT: Format = Format {
@@ -16,7 +18,8 @@ pub(super) const FORMAT: Format = Format {
     name: "glTF 2.0, binary",
     extension: "glb",
     is_binary: true,
-    holds: "what is seen: geometry, colours, names, cameras; physics as extras only",
+    moves: true,
+    holds: "what is seen: geometry, colours, names, cameras, motion; physics as extras only",
     write,
 };
 
@@ -25,6 +28,9 @@ fn write(source: &Source<'_>) -> Result<Exported, ExportError> {
     let names = names::unique(source.scene, &[], str::to_owned);
     for (body, name) in source.scene.bodies.iter().zip(&names) {
         file.add_body(body, name);
+    }
+    if let Some(motion) = source.motion {
+        file.add_animation(source, motion);
     }
     for viewpoint in source.document.viewpoints() {
         file.add_camera(&viewpoint, source.scene.map.size.length());
@@ -42,6 +48,7 @@ struct File {
     accessors: Vec<Value>,
     views: Vec<Value>,
     cameras: Vec<Value>,
+    animations: Vec<Value>,
     buffer: Vec<u8>,
     /// Shape, colour and where its mesh is.
     known: Vec<(Kind, Option<[u8; 3]>, usize)>,
@@ -113,7 +120,7 @@ impl File {
             // Unsigned shorts for the element array.
             self.accessor(
                 &indices,
-                34963,
+                Some(34963),
                 json!({ "componentType": 5123, "type": "SCALAR", "count": 3 * triangles.len() }),
             ),
         ];
@@ -129,19 +136,47 @@ impl File {
         let high = all.fold(Vec3::NEG_INFINITY, Vec3::max).to_array();
         let about =
             json!({ "componentType": 5126, "type": "VEC3", "count": vectors.len(), "min": low, "max": high });
-        self.accessor(&bytes, 34962, about)
+        self.accessor(&bytes, Some(34962), about)
     }
 
-    fn accessor(&mut self, bytes: &[u8], target: u32, mut about: Value) -> usize {
+    /// `target` says which array of vertices it is for, if any.
+    fn accessor(&mut self, bytes: &[u8], target: Option<u32>, mut about: Value) -> usize {
         let length = bytes.len();
-        self.views.push(
-            json!({ "buffer": 0, "byteOffset": self.buffer.len(), "byteLength": length, "target": target }),
-        );
+        let mut view = json!({ "buffer": 0, "byteOffset": self.buffer.len(), "byteLength": length });
+        if let Some(target) = target {
+            view["target"] = json!(target);
+        }
+        self.views.push(view);
         self.buffer.extend(bytes);
         self.buffer.resize(self.buffer.len().next_multiple_of(4), 0);
         about["bufferView"] = json!(self.views.len() - 1);
         self.accessors.push(about);
         self.accessors.len() - 1
+    }
+
+    /// One channel for each moving body; the nodes of bodies come first, in their order.
+    fn add_animation(&mut self, source: &Source<'_>, motion: &Animation) {
+        let start = motion.frames.from;
+        let times: Vec<f32> = motion.times.iter().map(|time| (time - start) as f32).collect();
+        let bytes: Vec<u8> = times.iter().flat_map(|time| time.to_le_bytes()).collect();
+        let (first, last) = (times.first().copied(), times.last().copied());
+        let about = json!({ "componentType": 5126, "type": "SCALAR", "count": times.len(), "min": [first], "max": [last] });
+        let input = self.accessor(&bytes, None, about);
+        let (mut samplers, mut channels) = (Vec::new(), Vec::new());
+        for (node, body) in source.scene.bodies.iter().enumerate() {
+            let Some(track) = motion.of(body.key) else { continue };
+            let places = track.iter().flat_map(|sample| sample.position.as_vec3().to_array());
+            let bytes: Vec<u8> = places.flat_map(f32::to_le_bytes).collect();
+            let about = json!({ "componentType": 5126, "type": "VEC3", "count": track.len() });
+            let output = self.accessor(&bytes, None, about);
+            channels.push(
+                json!({ "sampler": samplers.len(), "target": { "node": node, "path": "translation" } }),
+            );
+            samplers.push(json!({ "input": input, "output": output, "interpolation": "LINEAR" }));
+        }
+        if !channels.is_empty() {
+            self.animations.push(json!({ "name": "Motion", "samplers": samplers, "channels": channels }));
+        }
     }
 
     /// A camera looks along its −z, with y up. `extent` is what it must reach beyond its target.
@@ -188,6 +223,7 @@ impl File {
             ("accessors", &self.accessors),
             ("bufferViews", &self.views),
             ("cameras", &self.cameras),
+            ("animations", &self.animations),
         ];
         for (name, list) in lists.into_iter().filter(|(_, list)| !list.is_empty()) {
             root[name] = json!(list);
@@ -282,8 +318,10 @@ fn fate(aspect: Aspect) -> Fate {
         Aspect::Locked => not_needed("protects bodies in this editor"),
         Aspect::ForceLooks => not_needed("says where this editor draws and lists a force"),
         Aspect::Map => not_needed("a search grid, on which no result depends; its size is in `extras`"),
-        Aspect::TimeSpeed => dropped("nothing moves in the file"),
+        Aspect::TimeSpeed => dropped("an animation goes by model time"),
         Aspect::Solver => dropped("settings of this program's core"),
         Aspect::Viewpoints => kept("as cameras"),
+        Aspect::Motion => approximated("as an animation from 0 s on, along straight lines between frames"),
+        Aspect::Comments | Aspect::Unknown => no_meaning(),
     }
 }

@@ -5,10 +5,11 @@ use std::io;
 use super::aspect::Aspect;
 use super::axes::{quaternion, z_up, z_up_rotation};
 use super::contact::{Yielding, damping_ratio};
-use super::format::{ExportError, Exported, Format, Source};
+use super::error::ExportError;
+use super::format::{Exported, Format, Source};
 use super::names;
 use super::pairs::Pairs;
-use super::report::{Fate, Report, approximated, dropped, kept, not_needed};
+use super::report::{Fate, Report, approximated, dropped, kept, no_meaning, not_needed};
 use super::slab::Slabs;
 use super::xml::{Xml, number, numbers, rgba, vector};
 use crate::scene::{Body, Motion, Shape};
@@ -18,6 +19,7 @@ pub(super) const FORMAT: Format = Format {
     name: "MuJoCo (MJCF)",
     extension: "mjcf.xml",
     is_binary: false,
+    moves: false,
     holds: "bodies, masses, start velocities, uniform gravity, drag; restitution by damping",
     write,
 };
@@ -223,6 +225,8 @@ impl Writer<'_> {
             Aspect::TimeSpeed => dropped("the viewer has its own"),
             Aspect::Solver => dropped("settings of this program's core"),
             Aspect::Viewpoints => dropped("not written by this version"),
+            Aspect::Motion => dropped("it has a start only"),
+            Aspect::Comments | Aspect::Unknown => no_meaning(),
         }
     }
 

@@ -6,10 +6,12 @@ mod aspect;
 mod axes;
 mod contact;
 mod csv;
+mod error;
 mod format;
 mod gltf;
 mod mesh;
 mod mjcf;
+mod motion;
 mod names;
 mod pairs;
 mod polyphysics;
@@ -20,7 +22,10 @@ mod usd;
 mod xml;
 
 pub use aspect::Aspect;
-pub use format::{ExportError, Exported, Format};
+pub use contact::restitution_of_damping;
+pub use error::ExportError;
+pub use format::{Exported, Format};
+pub use motion::{Animation, Frames, Sample, When, with_state_of};
 pub use report::{Report, ReportLine, Verdict};
 
 /// All formats, in the order in which they are offered.

@@ -1,7 +1,8 @@
 //! PolyPhysicsXml 1.0, for the tools of the library it comes from: the file itself, without what 1.1 added.
 
 use super::aspect::Aspect;
-use super::format::{ExportError, Exported, Format, Source};
+use super::error::ExportError;
+use super::format::{Exported, Format, Source};
 use super::report::{Fate, Report, dropped, kept};
 use crate::scene::{BodyChange, Edit, ForceKind, SimParams};
 
@@ -10,6 +11,7 @@ pub(super) const FORMAT: Format = Format {
     name: "PolyPhysicsXml 1.0",
     extension: "xml",
     is_binary: false,
+    moves: false,
     holds: "everything but drag, materials and settings of the solver; comments and spaces stay",
     write,
 };
@@ -47,13 +49,16 @@ fn fate(aspect: Aspect) -> Fate {
         | Aspect::UserIds
         | Aspect::ForceLooks
         | Aspect::Map
-        | Aspect::TimeSpeed => kept(""),
+        | Aspect::TimeSpeed
+        | Aspect::Comments => kept(""),
+        Aspect::Unknown => kept("as it is; other tools skip it or complain"),
         Aspect::BodyNames
         | Aspect::Groups
         | Aspect::Colors
         | Aspect::Hidden
         | Aspect::Locked
         | Aspect::Viewpoints => kept("in processing instructions, which other tools skip"),
+        Aspect::Motion => dropped("it has a start only"),
         Aspect::Unbuilt | Aspect::Drag | Aspect::Materials | Aspect::Solver => {
             dropped("1.0 does not know it")
         }

@@ -52,6 +52,11 @@ pub(super) fn dropped(how: impl Into<String>) -> Fate {
     (Verdict::Dropped, how.into())
 }
 
+/// Of what is in the file without a meaning for the scene.
+pub(super) fn no_meaning() -> Fate {
+    dropped("no part of the scene's meaning; only PolyPhysicsXml has a place for it")
+}
+
 impl Report {
     /// Asks for the fate of each aspect that the scene has.
     pub(super) fn of(source: &Source<'_>, fate: impl Fn(Aspect) -> Fate) -> Self {

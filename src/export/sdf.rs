@@ -5,9 +5,10 @@ use std::io;
 use super::aspect::Aspect;
 use super::axes::{roll_pitch_yaw, z_up, z_up_rotation};
 use super::contact::Yielding;
-use super::format::{ExportError, Exported, Format, Source};
+use super::error::ExportError;
+use super::format::{Exported, Format, Source};
 use super::names;
-use super::report::{Fate, Report, approximated, dropped, kept, not_needed};
+use super::report::{Fate, Report, approximated, dropped, kept, no_meaning, not_needed};
 use super::slab::Slabs;
 use super::xml::{Xml, number, numbers, rgba, vector};
 use crate::scene::{Body, Motion, Shape};
@@ -17,6 +18,7 @@ pub(super) const FORMAT: Format = Format {
     name: "Gazebo (SDF 1.9)",
     extension: "sdf",
     is_binary: false,
+    moves: false,
     holds: "bodies, masses, uniform gravity, restitution of each surface",
     write,
 };
@@ -224,6 +226,8 @@ impl Writer<'_> {
             Aspect::TimeSpeed => kept("as real_time_factor"),
             Aspect::Solver => dropped("settings of this program's core"),
             Aspect::Viewpoints => dropped("not written by this version"),
+            Aspect::Motion => dropped("it has a start only"),
+            Aspect::Comments | Aspect::Unknown => no_meaning(),
         }
     }
 }

@@ -6,9 +6,11 @@ use glam::DVec3;
 
 use super::aspect::Aspect;
 use super::axes::quaternion;
-use super::format::{ExportError, Exported, Format, Source};
+use super::error::ExportError;
+use super::format::{Exported, Format, Source};
+use super::motion::{Animation, Frames};
 use super::names;
-use super::report::{Fate, Report, approximated, dropped, kept, not_needed};
+use super::report::{Fate, Report, approximated, dropped, kept, no_meaning, not_needed};
 use super::xml::number;
 use crate::scene::{Body, Motion, Shape, escaped, rotation_matrix};
 
@@ -17,34 +19,51 @@ pub(super) const FORMAT: Format = Format {
     name: "USD with physics, text",
     extension: "usda",
     is_binary: false,
-    holds: "bodies, masses, start velocities, uniform gravity, restitution of each body",
+    moves: true,
+    holds: "bodies, masses, motion, start velocities, uniform gravity, restitution of each body",
     write,
 };
 
 fn write(source: &Source<'_>) -> Result<Exported, ExportError> {
-    let mut text = HEADER.to_owned();
+    let mut text = header(source.motion);
     gravity(&mut text, source.gravity());
     let bounces = bounces(source);
     materials(&mut text, &bounces);
     text.push_str("    def Xform \"Bodies\"\n    {\n");
     for (body, name) in source.scene.bodies.iter().zip(names::identifiers(source.scene)) {
-        prim(&mut text, body, &name, &bounces);
+        prim(&mut text, source, body, &name, &bounces);
     }
     text.push_str("    }\n}\n");
     Ok(Exported { bytes: text.into_bytes(), report: Report::of(source, fate) })
 }
 
-const HEADER: &str = "#usda 1.0
+fn header(motion: Option<&Animation>) -> String {
+    let timing = motion.map(|motion| {
+        let Frames { from, to, fps } = motion.frames;
+        format!(
+            "    endTimeCode = {}
+    startTimeCode = 0
+    timeCodesPerSecond = {}
+",
+            number((to - from) * fps),
+            number(fps)
+        )
+    });
+    format!(
+        "#usda 1.0
 (
     defaultPrim = \"World\"
     kilogramsPerUnit = 1
     metersPerUnit = 1
     upAxis = \"Y\"
-)
+{})
 
 def Xform \"World\"
-{
-";
+{{
+",
+        timing.unwrap_or_default()
+    )
+}
 
 fn gravity(text: &mut String, gravity: DVec3) {
     let magnitude = gravity.length();
@@ -93,7 +112,7 @@ fn materials(text: &mut String, bounces: &[f64]) {
     text.push_str("    }\n\n");
 }
 
-fn prim(text: &mut String, body: &Body, name: &str, bounces: &[f64]) {
+fn prim(text: &mut String, source: &Source<'_>, body: &Body, name: &str, bounces: &[f64]) {
     let kind = match body.shape {
         Shape::Sphere { .. } => "Sphere",
         Shape::Plane { .. } => "Mesh",
@@ -125,6 +144,9 @@ fn prim(text: &mut String, body: &Body, name: &str, bounces: &[f64]) {
     );
     for line in attributes(body, bounces) {
         let _ = writeln!(text, "            {line}");
+    }
+    if let Some(motion) = source.motion {
+        time_samples(text, body, motion);
     }
     text.push_str("        }\n");
 }
@@ -161,6 +183,19 @@ fn attributes(body: &Body, bounces: &[f64]) -> Vec<String> {
     lines.push(format!("double3 xformOp:translate = {}", tuple(&body.position.to_array())));
     lines.push("uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:orient\"]".into());
     lines
+}
+
+/// Where a moving body is at each frame. An engine must follow that and not move it itself.
+fn time_samples(text: &mut String, body: &Body, motion: &Animation) {
+    let Some(track) = motion.of(body.key) else { return };
+    text.push_str("            bool physics:kinematicEnabled = 1\n");
+    text.push_str("            double3 xformOp:translate.timeSamples = {\n");
+    for (time, sample) in motion.times.iter().zip(track) {
+        let code = (time - motion.frames.from) * motion.frames.fps;
+        let place = tuple(&sample.position.to_array());
+        let _ = writeln!(text, "                {}: {place},", number(code));
+    }
+    text.push_str("            }\n");
 }
 
 fn shape(shape: &Shape) -> Vec<String> {
@@ -221,8 +256,12 @@ fn fate(aspect: Aspect) -> Fate {
         Aspect::Locked => not_needed("protects bodies in this editor"),
         Aspect::ForceLooks => not_needed("says where this editor draws and lists a force"),
         Aspect::Map => not_needed("a search grid, on which no result depends"),
-        Aspect::TimeSpeed => dropped("nothing moves in the file"),
+        Aspect::TimeSpeed => dropped("time samples go by model time"),
         Aspect::Solver => dropped("settings of this program's core"),
         Aspect::Viewpoints => dropped("not written by this version"),
+        Aspect::Motion => approximated(
+            "as time samples of kinematic bodies, along straight lines between frames; time code 0 is the first",
+        ),
+        Aspect::Comments | Aspect::Unknown => no_meaning(),
     }
 }

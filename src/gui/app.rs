@@ -53,7 +53,7 @@ pub struct App {
     ledger: LedgerPanel,
     pub(super) problems: Problems,
     pub(super) accuracy: Accuracy,
-    dialogs: Dialogs,
+    pub(super) dialogs: Dialogs,
     toasts: Toasts,
     dock: Dock,
     start_closed: bool,
@@ -348,6 +348,7 @@ impl App {
                     ctx.request_repaint();
                 }
             }
+            WindowCommand::Export(format) => self.dialogs.open_export(format),
             WindowCommand::Help => self.dialogs.open_help(HelpPage::Window),
             WindowCommand::Shortcuts => self.dialogs.open_help(HelpPage::Keys),
             WindowCommand::About => self.dialogs.open_help(HelpPage::About),

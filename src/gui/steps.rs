@@ -3,6 +3,7 @@
 use super::dock::Panel;
 use crate::design::TOOLS;
 use crate::editor::{COMMANDS, Command, ViewCommand, WindowCommand, parse_number};
+use crate::export::FORMATS;
 use crate::sim::Method;
 use crate::view::OVERLAYS;
 
@@ -41,6 +42,10 @@ fn step(text: &str) -> Option<Step> {
             "select" => Some(Step::Select(value.to_owned())),
             "dt" => Some(Step::Dt(value.to_owned())),
             "build" => build(value),
+            "export" => {
+                let index = FORMATS.iter().position(|format| format.id == value)?;
+                Some(Step::Command(WindowCommand::Export(Some(index)).into()))
+            }
             "method" => Some(Step::Method(Method::from_name(value)?)),
             "event" => Some(Step::Event(value.parse().ok()?)),
             "tab" if value == "problems" => Some(Step::Panel(Panel::Problems)),

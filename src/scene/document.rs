@@ -3,6 +3,7 @@
 use std::fmt;
 use std::fs::File;
 use std::io::{self, Read};
+use std::ops::Range;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
@@ -11,7 +12,7 @@ use super::locate::Index;
 use super::read::{self, Meaning};
 use super::rules::MAX_FILE_BYTES;
 use super::source::{Source, position_in};
-use super::tree::{Children, View, tag};
+use super::tree::{Child, Children, View, tag};
 use super::viewpoint::{self, Viewpoint};
 use super::{Diagnostic, NodeKey, NumberStyle, Scene, Severity, locate, parse, save, shown, write};
 
@@ -136,9 +137,34 @@ impl Document {
         }
     }
 
+    /// The text of the file, and in it the place of each body and force in bytes, in order; without these for bytes that
+    /// are no well-formed XML.
+    pub fn text_with_places(&self) -> (String, Vec<(NodeKey, Range<usize>)>) {
+        // Bodies and forces are those elements that have been read by themselves.
+        self.meaning();
+        match &self.content {
+            Content::Tree(top) => write::children_with_places(top, &self.source.text),
+            Content::Broken(bytes) => (String::from_utf8_lossy(bytes).into_owned(), Vec::new()),
+        }
+    }
+
     /// Writes the file atomically: temporary file beside it, sync, rename.
     pub fn save(&self, path: &Path) -> io::Result<()> {
         save::write_atomically(path, &self.to_bytes())
+    }
+
+    /// What stands outside any element, and the root.
+    pub(super) fn top(&self) -> impl Iterator<Item = &Child> {
+        let top = match &self.content {
+            Content::Tree(top) => Some(top),
+            Content::Broken(_) => None,
+        };
+        top.into_iter().flat_map(Children::iter)
+    }
+
+    /// What pieces of the tree were cut from.
+    pub(super) fn source_text(&self) -> &str {
+        &self.source.text
     }
 
     pub(super) fn of_tree(source: Arc<Source>, tree: Children) -> Self {

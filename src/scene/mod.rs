@@ -6,6 +6,7 @@ mod diagnostic;
 mod document;
 mod edit;
 mod encoding;
+mod foreign;
 mod ids;
 mod locate;
 mod names;
@@ -15,22 +16,29 @@ mod parse;
 mod read;
 mod rules;
 mod save;
+mod schema;
 mod source;
 mod tree;
 mod types;
 mod viewpoint;
+mod vocabulary;
 mod write;
+mod xml;
 
 use diagnostic::shown;
 
 pub use diagnostic::{Diagnostic, Severity, escaped, shown_path};
 pub use document::Document;
 pub use edit::{BodyChange, BodyCopy, Edit, EditError, Edited, ForceChange, Touched};
+pub use foreign::Foreign;
 pub use names::Names;
 pub use number::NumberStyle;
 pub use params::{PARAMS, ParamInfo, SimParams};
 pub use save::{
     FileId, FileStamp, canonical_target, check_writable, same_file, write_atomically, write_private,
 };
+pub use schema::schema;
 pub use types::{Body, Force, ForceKind, Map, Motion, NodeKey, Scene, Shape, rotation_matrix};
 pub use viewpoint::Viewpoint;
+pub use vocabulary::{AttributeInfo, Content, ElementInfo, Need, Part, Since, VOCABULARY, ValueKind};
+pub use xml::XmlElement;

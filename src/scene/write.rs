@@ -1,13 +1,50 @@
 //! From the tree back to text, and the text of what is new.
 
-use super::NumberStyle;
+use std::ops::Range;
+
 use super::tree::{Child, Children, Element};
+use super::{NodeKey, NumberStyle};
 
 /// The text of a list of children.
 pub(super) fn children(children: &Children, source: &str) -> String {
     let mut out = String::with_capacity(source.len() + 256);
     append(children, source, &mut out);
     out
+}
+
+/// The text of a list of children, and in it the place of each body and force, in order.
+pub(super) fn children_with_places(
+    children: &Children,
+    source: &str,
+) -> (String, Vec<(NodeKey, Range<usize>)>) {
+    let mut out = String::with_capacity(source.len() + 256);
+    let mut places = Vec::new();
+    append_noting(children, source, &mut out, &mut places);
+    (out, places)
+}
+
+fn append_noting(
+    children: &Children,
+    source: &str,
+    out: &mut String,
+    places: &mut Vec<(NodeKey, Range<usize>)>,
+) {
+    for child in children.iter() {
+        match child {
+            // What has been read by itself is a body or a force.
+            Child::Element(el) if el.reading.get().is_some() => {
+                let start = out.len();
+                element(el, source, out);
+                places.push((el.key, start..out.len()));
+            }
+            Child::Element(el) => {
+                out.push_str(el.open.get(source));
+                append_noting(&el.children, source, out, places);
+                out.push_str(el.close.get(source));
+            }
+            Child::Raw(text) => out.push_str(text.get(source)),
+        }
+    }
 }
 
 /// Appends the text of one element.

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use polyscene::export::{Aspect, ExportError, FORMATS, Format, Report, Verdict};
+use polyscene::export::{Aspect, ExportError, FORMATS, Format, Frames, Report, Verdict, When};
 use polyscene::scene::{Document, NumberStyle, Viewpoint};
 use quick_xml::Reader;
 use quick_xml::events::Event;
@@ -27,6 +27,7 @@ const ALL: &str = r##"<PolyPhysicsXml Version="1.1">
   </Simulation>
   <Primitives>
     <!-- a comment -->
+    <Cone UserID="9" />
     <SoftObject UserID="1">
       <?polyscene name="a &quot;b&quot; &lt;c&gt; \ ::__d, e" group="g/h" color="#ff8000" locked="true"?>
       <Translation X="1" Y="2" Z="3" /><Bounce F32="0.5" /><Material Text="iron" /><Weight F32="2" />
@@ -188,7 +189,7 @@ fn nothing_is_lost_silently() {
         let Report { lines } = format.export(&document).expect("an export").report;
         let aspects: Vec<_> = lines.iter().map(|line| format!("{:?}", line.aspect)).collect();
         let different: BTreeSet<_> = aspects.iter().cloned().collect();
-        assert_eq!(different.len(), 21, "{}: {aspects:?}", format.id);
+        assert_eq!(different.len(), 23, "{}: {aspects:?}", format.id);
         assert!(lines.is_sorted_by_key(|line| line.verdict), "{}: losses last", format.id);
         for line in &lines {
             assert!(line.verdict == Verdict::Kept || !line.how.is_empty(), "{line}: no reason");
@@ -307,4 +308,73 @@ fn ten_thousand_bodies_take_seconds() {
         exported.expect("an export");
         assert!(took < 3.0, "{}: {took} s", format.id);
     }
+}
+
+/// y of a ball dropped from rest at 5 m onto a floor at 0.5 m, elastic, g = 9.8 m/s²: its period is 2√(2·4.5/9.8) s.
+fn height(t: f64) -> f64 {
+    let half = (9.0 / 9.8_f64).sqrt();
+    let since = (t + half) % (2.0 * half) - half;
+    5.0 - 4.9 * since * since
+}
+
+const DROP: &str = r#"<PolyPhysicsXml Version="1.0"><Map><Size X="9" Y="9" Z="9" /><Tiles X="9" Y="9" Z="9" /></Map>
+<Simulation><Forces><GravityPlane UserID="1"><Translation X="5" Y="9" Z="5" /><Gravity X="0" Y="-9.8" Z="0" /></GravityPlane></Forces></Simulation>
+<Primitives><SoftObject UserID="7"><Translation X="5" Y="5" Z="5" /><Sphere><Radius F32="0.5" /></Sphere></SoftObject>
+<HardObject UserID="9"><Translation X="5" Y="0" Z="5" /><Rotation X="-1.5707963267948966" Y="0" Z="0" /><Plane><HalfSideX F32="4" /><HalfSideY F32="4" /></Plane></HardObject></Primitives></PolyPhysicsXml>"#;
+
+fn export_when(id: &str, when: When) -> Vec<u8> {
+    let document = Document::from_bytes(DROP.as_bytes());
+    let exported = format(id).export_when(&document, when, &mut |_, _| true);
+    exported.unwrap_or_else(|error| panic!("{id}: {error}")).bytes
+}
+
+#[test]
+fn a_later_state_is_that_of_the_fall() {
+    let text = String::from_utf8(export_when("csv", When::At(2.5))).expect("UTF-8");
+    let row: Vec<&str> = text.lines().nth(1).expect("a body").split(',').collect();
+    let y: f64 = row[7].parse().expect("a number");
+    assert!((y - height(2.5)).abs() < 1e-9, "{y} instead of {}", height(2.5));
+    for format in FORMATS {
+        assert!(!export_when(format.id, When::At(1.0)).is_empty());
+    }
+}
+
+#[test]
+fn motion_is_sampled_at_its_frames() {
+    let frames = Frames { from: 0.25, to: 2.5, fps: 10.0 };
+    let text = String::from_utf8(export_when("csv", When::Motion(frames))).expect("UTF-8");
+    let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows[0][..4], ["t_s", "label", "name", "x_m"]);
+    assert_eq!(rows.len(), 1 + 24, "23 tenths from 0.25 s, and the end");
+    for row in &rows[1..] {
+        let [t, y] = [0, 4].map(|at| row[at].parse::<f64>().expect("a number"));
+        assert!((y - height(t)).abs() < 1e-9, "{row:?}");
+    }
+    let glb = export_when("gltf", When::Motion(frames));
+    let json = gltf(&glb);
+    let animation = &json["animations"][0];
+    assert_eq!(animation["channels"][0]["target"], serde_json::json!({ "node": 0, "path": "translation" }));
+    let times = &json["accessors"][animation["samplers"][0]["input"].as_u64().expect("an input") as usize];
+    assert_eq!((&times["count"], &times["max"]), (&serde_json::json!(24), &serde_json::json!([2.25])));
+    let usd = String::from_utf8(export_when("usd", When::Motion(frames))).expect("UTF-8");
+    assert!(usd.contains("endTimeCode = 22.5") && usd.contains("timeCodesPerSecond = 10"), "{usd}");
+    assert!(usd.matches(",\n").count() >= 24 && balanced(&usd), "{usd}");
+}
+
+#[test]
+fn motion_that_cannot_be_is_refused() {
+    let document = Document::from_bytes(DROP.as_bytes());
+    let export = |id, frames| format(id).export_when(&document, When::Motion(frames), &mut |_, _| true);
+    let frames = Frames { from: 0.0, to: 1.0, fps: 60.0 };
+    assert!(matches!(export("mjcf", frames), Err(ExportError::NoMotion(_))));
+    for (from, to, fps) in
+        [(1.0, 1.0, 60.0), (-1.0, 1.0, 60.0), (0.0, 1.0, 0.0), (0.0, f64::NAN, 1.0), (0.0, 1e9, 60.0)]
+    {
+        assert!(
+            matches!(export("gltf", Frames { from, to, fps }), Err(ExportError::Frames(_))),
+            "{from} {to} {fps}"
+        );
+    }
+    let stopped = format("csv").export_when(&document, When::At(5.0), &mut |part, _| part < 0.5);
+    assert!(matches!(stopped, Err(ExportError::Cancelled { time }) if time < 5.0));
 }

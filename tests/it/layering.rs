@@ -4,25 +4,27 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Each layer and what it may import, besides itself. ARCHITECTURE.md says what each holds.
-const LAYERS: [(&str, &[&str]); 12] = [
+const LAYERS: [(&str, &[&str]); 13] = [
     ("random", &[]),
     ("scene", &[]),
-    ("export", &["scene"]),
     ("design", &["random", "scene"]),
     ("sim", &["random", "scene"]),
+    ("export", &["scene", "sim"]),
+    ("import", &["scene", "export"]),
     ("record", &["scene", "sim"]),
     ("study", &["random", "scene", "sim", "record"]),
     ("view", &["scene", "sim", "record", "study"]),
     ("render", &["scene", "sim", "record", "study", "view"]),
-    ("editor", &["scene", "design", "sim", "record", "study", "view"]),
-    ("gui", &["scene", "design", "sim", "record", "study", "view", "render", "editor"]),
-    ("cli", &["scene", "export", "design", "sim", "record", "study", "view", "render"]),
+    ("editor", &["scene", "import", "design", "sim", "record", "study", "view"]),
+    ("gui", &["scene", "export", "import", "design", "sim", "record", "study", "view", "render", "editor"]),
+    ("cli", &["scene", "export", "import", "design", "sim", "record", "study", "view", "render"]),
 ];
 
 /// What a layer must not name, because it knows nothing of it.
-const STRANGERS: [(&str, &[&str]); 10] = [
+const STRANGERS: [(&str, &[&str]); 11] = [
     ("design", &["std::time", "std::fs", "egui", "glow", "three_d", "clap"]),
     ("export", &["std::time", "std::fs", "egui", "glow", "three_d", "clap"]),
+    ("import", &["std::time", "std::fs", "egui", "glow", "three_d", "clap"]),
     ("scene", &["std::time", "egui", "glow", "three_d", "clap"]),
     ("sim", &["std::time", "std::fs", "egui", "glow", "three_d", "clap"]),
     ("record", &["egui", "glow", "three_d", "clap"]),

@@ -55,6 +55,8 @@ mod gui_cameras;
 mod gui_dock;
 // Editing in the window: by typing, by dragging, by commands, with undo.
 mod gui_edit;
+// Scenes for other programs out of the window and theirs into it.
+mod gui_export;
 // Files in the window: start card, open, save, unsaved changes, the window's own dialog.
 mod gui_files;
 // Handles in the views: found by name, dragged, typed into, each drag one undo point.
@@ -79,6 +81,8 @@ mod hard_cases;
 mod hard_invariance;
 // The verb `hard-cases` through the real program.
 mod hard_verb;
+// Scenes of other programs: places, masses, reports, errors, round trips.
+mod import;
 // The rules of the source tree: layers, file sizes, function sizes.
 mod layering;
 // Files of a layer import each other in one direction.
@@ -97,6 +101,8 @@ mod render_pictures;
 mod render_verb;
 // Edits: the bytes each changes, what it refuses, keys.
 mod scene_edit;
+// The vocabulary of the format against reader, schemas and documentation.
+mod scene_schema;
 // Files: every sample, every encoding, what saving does to the disk.
 mod scene_files;
 // One small file per rule of the reader, and what is said about each.

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use crate::cli::CliError;
 use crate::cli::output::{self, is_stdout};
-use crate::scene::{BodyChange, Document, Edit, FileStamp, check_writable, shown_path};
+use crate::export::with_state_of;
+use crate::scene::{Document, FileStamp, check_writable, shown_path};
 use crate::sim::Simulation;
 
 /// Where the last state goes, and what was there before the run.
@@ -30,7 +31,9 @@ impl<'a> FinalScene<'a> {
     /// Writes `document` with the positions and velocities of `sim` now; a file is replaced in one go. A file
     /// that another program wrote during the run stays, and the state goes beside it: neither is lost.
     pub fn write(&self, document: &Document, sim: &Simulation) -> Result<(), CliError> {
-        let last = with_state_of(document, sim)?;
+        let last = with_state_of(document, sim).map_err(|error| {
+            CliError::Usage(format!("cannot write the last state into the scene: {error}"))
+        })?;
         if is_stdout(self.path) {
             return output::print(&last.to_bytes());
         }
@@ -46,20 +49,6 @@ impl<'a> FinalScene<'a> {
             shown_path(&free)
         )))
     }
-}
-
-fn with_state_of(document: &Document, sim: &Simulation) -> Result<Document, CliError> {
-    let changes = sim.dynamic_bodies().filter_map(|body| {
-        let (key, state) = (sim.key(body), sim.state(body)?);
-        Some([
-            Edit::Body { key, change: BodyChange::Position(state.position) },
-            Edit::Body { key, change: BodyChange::Velocity(state.velocity) },
-        ])
-    });
-    let edited = document.apply(&Edit::All(changes.flatten().collect()));
-    let edited = edited
-        .map_err(|error| CliError::Usage(format!("cannot write the last state into the scene: {error}")))?;
-    Ok(edited.document)
 }
 
 /// `name-2.xml` for `name.xml`, or the first number at which there is no file yet.

@@ -6,6 +6,7 @@ mod progress;
 mod recorder;
 mod rows;
 mod summary;
+mod table;
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -16,6 +17,7 @@ use self::drive::{Ending, Stops};
 use self::final_scene::FinalScene;
 use self::recorder::Recorder;
 use self::summary::Summary;
+use self::table::RowArgs;
 use super::limits::LimitArgs;
 use super::output::{self, is_stdout};
 use super::samples::SampleGrid;
@@ -53,11 +55,11 @@ pub struct RunArgs {
     #[arg(long, default_value = Method::Exact.name(), value_parser = method::parser())]
     method: Method,
 
-    /// Write states as JSON Lines to this file; `-` is standard output
+    /// Write states to this file, as JSON Lines or CSV; `-` is standard output
     #[arg(long, value_name = "FILE")]
     states: Option<PathBuf>,
 
-    /// Write events as JSON Lines to this file; `-` is standard output
+    /// Write events to this file, as JSON Lines or CSV; `-` is standard output
     #[arg(long, value_name = "FILE")]
     events: Option<PathBuf>,
 
@@ -76,6 +78,9 @@ pub struct RunArgs {
     json: bool,
 
     #[command(flatten)]
+    rows: RowArgs,
+
+    #[command(flatten)]
     limits: LimitArgs,
 }
 
@@ -86,6 +91,7 @@ pub(super) fn run(args: &RunArgs) -> Result<(), CliError> {
     }
     let grid = SampleGrid::new(args.dt, args.until).map_err(CliError::Usage)?;
     refuse_clashing_outputs(args)?;
+    args.rows.check(args.states.as_deref(), args.events.as_deref())?;
     let final_scene = args.final_scene.as_deref().map(FinalScene::new);
 
     let watchdog = args.limits.watchdog();
@@ -100,9 +106,12 @@ pub(super) fn run(args: &RunArgs) -> Result<(), CliError> {
         return Err(CliError::Scene(format!("{name} cannot be simulated: {errors} error(s)")));
     };
 
+    let scene = examined.document.scene();
+    let wanted = scene.map(|scene| args.rows.wanted(scene)).transpose()?;
+    let wanted = wanted.ok_or_else(|| CliError::Scene(format!("{name} has no scene")))?;
     let interrupt = interrupt::on_interrupt();
     final_scene.as_ref().map_or(Ok(()), FinalScene::check)?;
-    let mut recorder = Recorder::create(args, &grid)?;
+    let mut recorder = Recorder::create(args, &grid, wanted)?;
     let started = Instant::now();
     let stops = Stops { interrupt, watch: Watch::start(args.limits.limits()) };
     let ending = drive::drive(&mut sim, &grid, &mut recorder, &stops)?;
@@ -176,6 +185,7 @@ fn examples() -> &'static str {
      polyscene run scene.xml --until 10 --max-events 100000 --max-wall 60 --json\n  \
      polyscene run scene.xml --dt 0.01 --until 10 --every 100 --states states.jsonl --json\n  \
      polyscene run scene.xml --dt 1/60 --until 60 --method thesis --json\n  \
+     polyscene run scene.xml --until 60 --events impacts.csv --kinds impact --bodies 7,Floor --columns t,a,b,impulse\n  \
      polyscene run scene.xml --dt 1 --until 5 --final after-5-s.xml"
 }
 
@@ -200,5 +210,8 @@ Events, one row per contact:
   together and share it, one row each; it is 0 for other kinds; dt_index is the Δt, from 1
   dense and group_rest are about the bodies of one group, of which a has the smallest UserID;
   they say how many these are, \"bodies\":30, and share the group's number
+
+As CSV (--rows csv, or a file that ends in .csv) vectors are three columns: x, y, z, vx, vy, vz of states,
+one row for each body; point_x … normal_z of events.
 
 Ids are UserIDs; the k-th body of a repeated UserID is called UserID#k.";

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use super::RunArgs;
 use super::progress::Progress;
-use super::rows::{EventRow, StateRow};
+use super::table::{Table, Wanted};
 use crate::cli::CliError;
 use crate::cli::output::LineSink;
 use crate::cli::samples::SampleGrid;
@@ -17,8 +17,9 @@ const TICK: Duration = Duration::from_millis(100);
 const OVERLAP_LOOKS: u64 = 1000;
 
 pub struct Recorder {
-    states: Option<LineSink>,
-    events: Option<LineSink>,
+    states: Option<Table>,
+    events: Option<Table>,
+    wanted: Wanted,
     progress: Progress,
     last_tick: Instant,
     max_overlap: f64,
@@ -32,15 +33,16 @@ pub struct Recorder {
 
 impl Recorder {
     /// Creates the output files.
-    pub fn create(args: &RunArgs, grid: &SampleGrid) -> Result<Self, CliError> {
-        let states = args.states.as_deref().map(LineSink::create).transpose()?;
-        let events = args.events.as_deref().map(LineSink::create).transpose()?;
+    pub fn create(args: &RunArgs, grid: &SampleGrid, wanted: Wanted) -> Result<Self, CliError> {
+        let states = args.states.as_deref().map(|path| args.rows.states(path)).transpose()?;
+        let events = args.events.as_deref().map(|path| args.rows.events(path)).transpose()?;
         Ok(Self {
             has_other_purpose: args.final_scene.is_some()
                 || args.json
                 || (states.is_none() && events.is_none()),
             states,
             events,
+            wanted,
             progress: Progress::new(grid.until, args.writes_to_stdout()),
             last_tick: Instant::now(),
             max_overlap: 0.0,
@@ -57,7 +59,9 @@ impl Recorder {
             self.max_overlap = self.max_overlap.max(sim.worst_overlap());
         }
         match &mut self.states {
-            Some(sink) if is_last || step.is_multiple_of(self.states_every) => sink.row(&StateRow::new(sim)),
+            Some(table) if is_last || step.is_multiple_of(self.states_every) => {
+                table.state(sim, &self.wanted)
+            }
             _ => Ok(()),
         }
     }
@@ -70,7 +74,7 @@ impl Recorder {
     /// Takes down an event of the `dt_index`-th Δt.
     pub fn event(&mut self, sim: &Simulation, event: &Event, dt_index: u64) -> Result<(), CliError> {
         match &mut self.events {
-            Some(sink) => sink.row(&EventRow::new(sim, event, dt_index)),
+            Some(table) => table.event(sim, event, dt_index, &self.wanted),
             None => Ok(()),
         }
     }
@@ -102,10 +106,11 @@ impl Recorder {
     }
 
     fn flush(&mut self) -> Result<(), CliError> {
-        [&mut self.states, &mut self.events].into_iter().flatten().try_for_each(LineSink::flush)
+        let tables = [&mut self.states, &mut self.events];
+        tables.into_iter().flatten().try_for_each(|table| table.sink.flush())
     }
 
     fn sinks(&self) -> impl Iterator<Item = &LineSink> {
-        self.states.iter().chain(&self.events)
+        self.states.iter().chain(&self.events).map(|table| &table.sink)
     }
 }

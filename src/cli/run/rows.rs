@@ -3,7 +3,50 @@
 use glam::DVec3;
 use serde::Serialize;
 
-use crate::sim::{Event, EventKind, Simulation};
+use crate::sim::{BodyRef, Event, EventKind, Simulation};
+
+/// A column of CSV and where its value stands in the JSON of a row.
+pub struct Column {
+    pub name: &'static str,
+    pub at: &'static str,
+}
+
+const fn column(name: &'static str, at: &'static str) -> Column {
+    Column { name, at }
+}
+
+/// Of one body at one time.
+pub const STATE_COLUMNS: &[Column] = &[
+    column("t", "/t"),
+    column("id", "/id"),
+    column("x", "/x/0"),
+    column("y", "/x/1"),
+    column("z", "/x/2"),
+    column("vx", "/v/0"),
+    column("vy", "/v/1"),
+    column("vz", "/v/2"),
+    column("state", "/state"),
+];
+
+pub const EVENT_COLUMNS: &[Column] = &[
+    column("seq", "/seq"),
+    column("t", "/t"),
+    column("kind", "/kind"),
+    column("a", "/a"),
+    column("b", "/b"),
+    column("point_x", "/point/0"),
+    column("point_y", "/point/1"),
+    column("point_z", "/point/2"),
+    column("normal_x", "/normal/0"),
+    column("normal_y", "/normal/1"),
+    column("normal_z", "/normal/2"),
+    column("impulse", "/impulse"),
+    column("vn_before", "/vn_before"),
+    column("vn_after", "/vn_after"),
+    column("group", "/group"),
+    column("bodies", "/bodies"),
+    column("dt_index", "/dt_index"),
+];
 
 /// All dynamic bodies at one time.
 #[derive(Serialize)]
@@ -21,8 +64,9 @@ struct BodyRow<'a> {
 }
 
 impl<'a> StateRow<'a> {
-    pub fn new(sim: &'a Simulation) -> Self {
-        let bodies = sim.dynamic_bodies().filter_map(|body| {
+    /// Of the bodies that `wanted` says.
+    pub fn new(sim: &'a Simulation, wanted: impl Fn(BodyRef) -> bool) -> Self {
+        let bodies = sim.dynamic_bodies().filter(|body| wanted(*body)).filter_map(|body| {
             let state = sim.state(body)?;
             Some(BodyRow {
                 id: sim.label(body),
@@ -33,6 +77,19 @@ impl<'a> StateRow<'a> {
         });
         Self { t: sim.time(), bodies: bodies.collect() }
     }
+
+    /// Each body with the time, for tables.
+    pub fn bodies(&self) -> impl Iterator<Item = TimedBody<'_>> {
+        self.bodies.iter().map(|body| TimedBody { t: self.t, body })
+    }
+}
+
+/// One body at one time.
+#[derive(Serialize)]
+pub struct TimedBody<'a> {
+    t: f64,
+    #[serde(flatten)]
+    body: &'a BodyRow<'a>,
 }
 
 /// One contact of one event.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::{Duration, Instant};
 
-use crate::editor::Action;
+use crate::editor::{Action, ExportedFile};
 use crate::gui::accuracy::Export;
 use crate::gui::context::Message;
 
@@ -14,6 +14,11 @@ pub enum FileRequest {
     Open,
     Save {
         directory: Option<PathBuf>,
+        file_name: String,
+    },
+    /// The scene for another program.
+    ExportScene {
+        file: ExportedFile,
         file_name: String,
     },
     /// Figures or diagrams of a study.
@@ -29,15 +34,18 @@ impl FileRequest {
         match self {
             Self::Open => Message::Do(Action::OpenPath(path)),
             Self::Save { .. } => Message::Do(Action::SaveTo(path)),
+            Self::ExportScene { file, .. } => Message::Do(Action::WriteExport(path, file.clone())),
             Self::Export { export, .. } => Message::Export(*export, path),
         }
     }
 
-    /// Ending of the files that may be chosen.
-    pub fn extension(&self) -> &'static str {
+    /// Endings of the files that may be chosen.
+    pub fn extensions(&self) -> Vec<&'static str> {
         match self {
-            Self::Open | Self::Save { .. } => "xml",
-            Self::Export { export, .. } => export.extension(),
+            Self::Open => vec!["xml", "mjcf", "sdf", "world"],
+            Self::Save { .. } => vec!["xml"],
+            Self::ExportScene { file, .. } => vec![file.extension],
+            Self::Export { export, .. } => vec![export.extension()],
         }
     }
 
@@ -46,6 +54,7 @@ impl FileRequest {
         match self {
             Self::Open => "Open a scene",
             Self::Save { .. } => "Save the scene as",
+            Self::ExportScene { .. } => "Export the scene as",
             Self::Export { .. } => "Export the study as",
         }
     }
@@ -93,13 +102,15 @@ impl FileDialogs for NativeFileDialogs {
         let (sender, receiver) = channel();
         let (ctx, request) = (ctx.clone(), request.clone());
         std::thread::spawn(move || {
-            let extension = request.extension();
+            let extensions = request.extensions();
             let dialog = rfd::FileDialog::new()
                 .set_title(request.title())
-                .add_filter(format!("*.{extension}"), &[extension]);
+                .add_filter(format!("*.{}", extensions.join(", *.")), &extensions);
             let chosen = match request {
                 FileRequest::Open => dialog.pick_file(),
-                FileRequest::Export { file_name, .. } => dialog.set_file_name(file_name).save_file(),
+                FileRequest::Export { file_name, .. } | FileRequest::ExportScene { file_name, .. } => {
+                    dialog.set_file_name(file_name).save_file()
+                }
                 FileRequest::Save { directory, file_name } => {
                     let dialog = dialog.set_file_name(file_name);
                     match directory {

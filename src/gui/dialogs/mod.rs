@@ -1,10 +1,13 @@
 //! Dialogs: questions, files, the command palette, help.
 
+mod export;
+mod export_job;
 mod files;
 mod help;
 mod palette;
 mod path;
 mod question;
+mod report;
 mod tool;
 
 use egui::Context;
@@ -14,10 +17,12 @@ use super::context::{AppContext, Shown};
 use crate::design::Eye;
 use crate::editor::{Action, Request};
 
+use export::ExportDialog;
 pub use files::{FileAnswer, FileDialogs, FileRequest, NativeFileDialogs, NoFileDialogs};
 pub use help::HelpPage;
 use palette::Palette;
 use path::PathDialog;
+use report::ImportDialog;
 use tool::ToolDialog;
 
 /// All dialogs; at most one of them is open beside a question.
@@ -29,11 +34,22 @@ pub struct Dialogs {
     palette: Option<Palette>,
     help: Option<HelpPage>,
     tool: Option<ToolDialog>,
+    export: Option<ExportDialog>,
+    import: Option<ImportDialog>,
 }
 
 impl Dialogs {
     pub fn new(files: Box<dyn FileDialogs>) -> Self {
-        Self { files, asked: None, path: None, palette: None, help: None, tool: None }
+        Self {
+            files,
+            asked: None,
+            path: None,
+            palette: None,
+            help: None,
+            tool: None,
+            export: None,
+            import: None,
+        }
     }
 
     /// Whether a dialog has the keyboard, so that shortcuts wait.
@@ -43,6 +59,18 @@ impl Dialogs {
             || self.palette.is_some()
             || self.help.is_some()
             || self.tool.is_some()
+            || self.export.is_some()
+            || self.import.is_some()
+    }
+
+    /// Whether a dialog waits for a thread of its own.
+    pub fn are_working(&self) -> bool {
+        self.export.as_ref().is_some_and(ExportDialog::is_working)
+    }
+
+    /// Opens the dialog that exports the scene, with a format of [`crate::export::FORMATS`] chosen.
+    pub fn open_export(&mut self, format: Option<usize>) {
+        self.export = Some(ExportDialog::new(format.unwrap_or_default()));
     }
 
     pub fn open_palette(&mut self) {
@@ -66,6 +94,10 @@ impl Dialogs {
     /// Opens a file dialog that the session asks for.
     pub fn ask_for_file(&mut self, ctx: &Context, request: &Request) {
         let request = match request {
+            Request::ShowImport { title, report } => {
+                self.import = Some(ImportDialog::new(title.clone(), report.clone()));
+                return;
+            }
             Request::ChooseOpenPath => FileRequest::Open,
             Request::ChooseSavePath { directory, file_name } => {
                 FileRequest::Save { directory: directory.clone(), file_name: file_name.clone() }
@@ -79,8 +111,14 @@ impl Dialogs {
     /// Opens a file dialog for figures or diagrams of a study.
     pub fn ask_for_export(&mut self, ctx: &Context, export: Export, file_name: String) {
         let request = FileRequest::Export { export, file_name };
+        self.ask(ctx, request);
+    }
+
+    fn ask(&mut self, ctx: &Context, request: FileRequest) {
         self.files.ask(ctx, &request);
         self.asked = Some(request);
+        // the answer may be there already
+        ctx.request_repaint();
     }
 
     pub fn show(&mut self, ctx: &Context, context: &AppContext<'_>) {
@@ -100,6 +138,19 @@ impl Dialogs {
             && tool.show(ctx, context)
         {
             self.tool = None;
+        }
+        match self.export.as_mut().map(|export| export.show(ctx, context)) {
+            Some(export::Decision::Write(request)) => {
+                self.export = None;
+                self.ask(ctx, request);
+            }
+            Some(export::Decision::Cancel) => self.export = None,
+            Some(export::Decision::Open) | None => {}
+        }
+        if let Some(import) = &self.import
+            && import.show(ctx)
+        {
+            self.import = None;
         }
         if let Some(page) = self.help
             && help::show(ctx, page)

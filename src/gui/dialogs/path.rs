@@ -35,7 +35,9 @@ impl PathDialog {
         let (folder, text) = match &request {
             FileRequest::Open => (beside, String::new()),
             FileRequest::Save { directory, file_name } => (directory.clone().or(beside), file_name.clone()),
-            FileRequest::Export { file_name, .. } => (beside, file_name.clone()),
+            FileRequest::Export { file_name, .. } | FileRequest::ExportScene { file_name, .. } => {
+                (beside, file_name.clone())
+            }
         };
         let folder = folder.or_else(|| std::env::current_dir().ok()).unwrap_or_else(|| PathBuf::from("/"));
         let mut dialog = Self {
@@ -129,9 +131,9 @@ impl PathDialog {
     fn enter(&mut self, folder: PathBuf) {
         match std::fs::read_dir(&folder) {
             Ok(entries) => {
-                let ending = self.request.extension();
+                let endings = self.request.extensions();
                 self.entries =
-                    entries.flatten().filter_map(|entry| listed(&entry, ending)).take(MOST).collect();
+                    entries.flatten().filter_map(|entry| listed(&entry, &endings)).take(MOST).collect();
                 self.entries.sort_by(|a, b| {
                     b.is_folder
                         .cmp(&a.is_folder)
@@ -170,11 +172,12 @@ impl PathDialog {
     }
 }
 
-fn listed(entry: &std::fs::DirEntry, ending: &str) -> Option<Entry> {
+fn listed(entry: &std::fs::DirEntry, endings: &[&str]) -> Option<Entry> {
     let name = entry.file_name().to_string_lossy().into_owned();
     // follows links, so that linked folders can be entered
     let is_folder = entry.path().is_dir();
-    let is_wanted = name.to_lowercase().ends_with(&format!(".{ending}"));
+    let lower = name.to_lowercase();
+    let is_wanted = endings.iter().any(|ending| lower.ends_with(&format!(".{ending}")));
     (!name.starts_with('.') && (is_folder || is_wanted)).then_some(Entry { name, is_folder })
 }
 

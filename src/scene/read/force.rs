@@ -8,7 +8,7 @@ use crate::scene::rules::Range;
 use crate::scene::tree::View;
 use crate::scene::{Force, ForceKind};
 
-pub(super) const FORCES: [&str; 3] = ["GravityPoint", "GravityPlane", "SpaceAverse"];
+pub(in crate::scene) const FORCES: [&str; 3] = ["GravityPoint", "GravityPlane", "SpaceAverse"];
 
 /// Density of air, kg/m³: what a `SpaceAverse` without `Density` has.
 const AIR_DENSITY: f64 = 1.276;

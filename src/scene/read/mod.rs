@@ -15,5 +15,9 @@ mod simulation;
 
 pub(super) use body::{BODY_ORDER, SHAPES};
 pub(super) use cosmetic::is_cosmetic;
+#[cfg(test)]
+pub(super) use feature::NAMES as NEW;
+#[cfg(test)]
+pub(super) use force::FORCES;
 pub(super) use item::ItemReading;
 pub(super) use scene::{Meaning, read};

@@ -10,6 +10,7 @@ mod outputs;
 mod run;
 mod streams;
 mod study;
+mod tables;
 mod usage;
 
 use std::path::{Path, PathBuf};

@@ -1,0 +1,187 @@
+//! Rows as JSON Lines or as CSV (RFC 4180), of the bodies, kinds and columns that were asked for.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use clap::{Args, ValueEnum};
+use serde::Serialize;
+use serde_json::Value;
+
+use super::rows::{Column, EVENT_COLUMNS, EventRow, STATE_COLUMNS, StateRow};
+use crate::cli::CliError;
+use crate::cli::output::LineSink;
+use crate::scene::{Body, Scene};
+use crate::sim::{BodyRef, Event, EventKind, Simulation};
+
+/// How rows are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Style {
+    Jsonl,
+    Csv,
+}
+
+/// What of the rows is written.
+#[derive(Clone, Debug, Default, Args)]
+pub struct RowArgs {
+    /// How --states and --events are written; by default csv for a file that ends so, else jsonl
+    #[arg(long = "rows", value_name = "FORMAT")]
+    style: Option<Style>,
+
+    /// Only rows of these bodies, by UserID or name, separated by commas: of an event one of the two is enough
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    bodies: Vec<String>,
+
+    /// Only events of these kinds, separated by commas
+    #[arg(long, value_name = "LIST", value_delimiter = ',', requires = "events")]
+    kinds: Vec<String>,
+
+    /// Only these columns of CSV, separated by commas, in this order
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    columns: Vec<String>,
+}
+
+/// The bodies and kinds that are wanted; all unless some were named.
+pub struct Wanted {
+    labels: Option<BTreeSet<String>>,
+    kinds: Option<Vec<EventKind>>,
+}
+
+impl RowArgs {
+    /// Refuses bodies and kinds that there are not.
+    pub fn wanted(&self, scene: &Scene) -> Result<Wanted, CliError> {
+        let mut labels = BTreeSet::new();
+        for name in self.bodies.iter().map(|name| name.trim()) {
+            let named = |body: &&Body| body.label == name || body.name.as_deref() == Some(name);
+            let found: Vec<_> = scene.bodies.iter().filter(named).map(|body| body.label.clone()).collect();
+            if found.is_empty() {
+                return Err(CliError::Usage(format!("--bodies: no body has the UserID or name {name}")));
+            }
+            labels.extend(found);
+        }
+        let mut kinds = Vec::new();
+        for name in self.kinds.iter().map(|name| name.trim()) {
+            let known = EventKind::ALL.into_iter().find(|kind| kind.name() == name);
+            kinds.push(known.ok_or_else(|| {
+                let names: Vec<_> = EventKind::ALL.iter().map(|kind| kind.name()).collect();
+                CliError::Usage(format!("--kinds: {name} is none of {}", names.join(", ")))
+            })?);
+        }
+        let labels = (!self.bodies.is_empty()).then_some(labels);
+        let kinds = (!self.kinds.is_empty()).then_some(kinds);
+        Ok(Wanted { labels, kinds })
+    }
+
+    pub fn states(&self, path: &Path) -> Result<Table, CliError> {
+        Table::create(path, self.style_of(path), self.chosen(STATE_COLUMNS)?)
+    }
+
+    pub fn events(&self, path: &Path) -> Result<Table, CliError> {
+        Table::create(path, self.style_of(path), self.chosen(EVENT_COLUMNS)?)
+    }
+
+    /// Refuses what fits no output, before the run.
+    pub fn check(&self, states: Option<&Path>, events: Option<&Path>) -> Result<(), CliError> {
+        let outputs = [states, events].into_iter().flatten();
+        if !self.columns.is_empty() && outputs.clone().any(|path| self.style_of(path) == Style::Jsonl) {
+            return Err(CliError::Usage("--columns are those of CSV: add --rows csv".into()));
+        }
+        let tables = [(states, STATE_COLUMNS), (events, EVENT_COLUMNS)];
+        let tables = tables.into_iter().filter(|(path, _)| path.is_some());
+        let known: Vec<&str> =
+            tables.flat_map(|(_, columns)| columns.iter().map(|column| column.name)).collect();
+        match self.columns.iter().find(|name| !known.contains(&name.trim())) {
+            Some(unknown) if !known.is_empty() => {
+                Err(CliError::Usage(format!("--columns: {unknown} is none of {}", known.join(", "))))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn style_of(&self, path: &Path) -> Style {
+        let is_csv = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"));
+        self.style.unwrap_or(if is_csv { Style::Csv } else { Style::Jsonl })
+    }
+
+    /// The columns asked for, of those that a table has; all unless some were named.
+    fn chosen(&self, all: &'static [Column]) -> Result<Vec<&'static Column>, CliError> {
+        if self.columns.is_empty() {
+            return Ok(all.iter().collect());
+        }
+        let named = |name: &String| all.iter().find(|column| column.name == name.trim());
+        let chosen: Vec<_> = self.columns.iter().filter_map(named).collect();
+        if chosen.is_empty() {
+            let names: Vec<_> = all.iter().map(|column| column.name).collect();
+            let text = format!("--columns leaves no column of one output; it has {}", names.join(", "));
+            return Err(CliError::Usage(text));
+        }
+        Ok(chosen)
+    }
+}
+
+impl Wanted {
+    pub fn body(&self, sim: &Simulation, body: BodyRef) -> bool {
+        self.labels.as_ref().is_none_or(|labels| labels.contains(sim.label(body)))
+    }
+
+    fn event(&self, sim: &Simulation, event: &Event) -> bool {
+        let kind = self.kinds.as_ref().is_none_or(|kinds| kinds.contains(&event.kind));
+        kind && (self.body(sim, event.a) || event.b.is_some_and(|b| self.body(sim, b)))
+    }
+}
+
+/// Where rows of one sort go.
+pub struct Table {
+    pub sink: LineSink,
+    style: Style,
+    columns: Vec<&'static Column>,
+}
+
+impl Table {
+    fn create(path: &Path, style: Style, columns: Vec<&'static Column>) -> Result<Self, CliError> {
+        let mut sink = LineSink::create(path)?;
+        if style == Style::Csv {
+            let names: Vec<_> = columns.iter().map(|column| column.name).collect();
+            sink.line(&names.join(","))?;
+        }
+        Ok(Self { sink, style, columns })
+    }
+
+    /// One row for JSON, one for each body for CSV.
+    pub fn state(&mut self, sim: &Simulation, wanted: &Wanted) -> Result<(), CliError> {
+        let row = StateRow::new(sim, |body| wanted.body(sim, body));
+        if self.style == Style::Jsonl {
+            return self.sink.row(&row);
+        }
+        row.bodies().try_for_each(|body| self.csv(&body))
+    }
+
+    pub fn event(
+        &mut self,
+        sim: &Simulation,
+        event: &Event,
+        dt_index: u64,
+        wanted: &Wanted,
+    ) -> Result<(), CliError> {
+        if !wanted.event(sim, event) {
+            return Ok(());
+        }
+        let row = EventRow::new(sim, event, dt_index);
+        if self.style == Style::Jsonl { self.sink.row(&row) } else { self.csv(&row) }
+    }
+
+    fn csv(&mut self, row: &impl Serialize) -> Result<(), CliError> {
+        let value = serde_json::to_value(row).unwrap_or_default();
+        let cell = |column: &&Column| value.pointer(column.at).map(text).unwrap_or_default();
+        let cells: Vec<String> = self.columns.iter().map(cell).collect();
+        self.sink.line(&cells.join(","))
+    }
+}
+
+/// Labels are numbers with `#`, and kinds and states words: nothing needs quotes.
+fn text(value: &Value) -> String {
+    match value {
+        Value::Null => String::new(),
+        Value::String(text) => text.clone(),
+        other => other.to_string(),
+    }
+}

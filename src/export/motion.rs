@@ -1,0 +1,194 @@
+//! A scene at another time than its start, and its motion as samples: simulated here, event by event.
+
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+
+use super::error::ExportError;
+use crate::scene::{BodyChange, Document, Edit, EditError, NodeKey};
+use crate::sim::{BodyRef, Progress, Simulation};
+
+/// Which part of a run is exported. Times in s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum When {
+    Start,
+    At(f64),
+    Motion(Frames),
+}
+
+/// Equally spaced times, and the last at the end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frames {
+    pub from: f64,
+    pub to: f64,
+    /// Frames per model second.
+    pub fps: f64,
+}
+
+/// A last frame nearer than this share of a frame to the one before is rounding, and joins it.
+const SLIVER: f64 = 1e-6;
+
+/// Samples of bodies: a gigabyte of text, and half of that in memory.
+const MOST_SAMPLES: f64 = 1e7;
+
+/// Predictions between two looks at whether to go on.
+const PREDICTIONS: u32 = 256;
+
+impl Frames {
+    /// Why there is nothing to export, if so.
+    pub fn refusal(&self) -> Option<String> {
+        let Self { from, to, fps } = *self;
+        if !(from.is_finite() && to.is_finite() && fps.is_finite()) {
+            return Some("times and frames per second must be finite numbers".into());
+        }
+        if from < 0.0 || to <= from {
+            return Some(format!(
+                "the motion must end after it begins, which is not before 0: {from} s to {to} s"
+            ));
+        }
+        if fps <= 0.0 {
+            return Some("frames per second must be more than 0".into());
+        }
+        None
+    }
+
+    fn count(&self) -> f64 {
+        (self.to - self.from) * self.fps
+    }
+
+    /// All times, by products, so that none drifts.
+    fn times(&self) -> Vec<f64> {
+        let count = self.count();
+        let whole = (count + SLIVER).floor();
+        let last = if count - whole > SLIVER { Some(self.to) } else { None };
+        let at = |frame: u64| (self.from + frame as f64 / self.fps).min(self.to);
+        (0..=whole as u64).map(at).chain(last).collect()
+    }
+}
+
+/// Places and velocities of the moving bodies at rising times.
+#[derive(Clone, Debug)]
+pub struct Animation {
+    pub frames: Frames,
+    /// s.
+    pub times: Vec<f64>,
+    tracks: FxHashMap<NodeKey, Vec<Sample>>,
+}
+
+/// A body at one time: m, m/s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    pub position: DVec3,
+    pub velocity: DVec3,
+}
+
+impl Animation {
+    /// One sample for each time; `None` for a body that never moves.
+    pub fn of(&self, key: NodeKey) -> Option<&[Sample]> {
+        self.tracks.get(&key).map(Vec::as_slice)
+    }
+}
+
+/// The document with the places and velocities of a simulation of it as its start.
+pub fn with_state_of(document: &Document, sim: &Simulation) -> Result<Document, EditError> {
+    let changes = sim.dynamic_bodies().filter_map(|body| {
+        let (key, state) = (sim.key(body), sim.state(body)?);
+        Some([
+            Edit::Body { key, change: BodyChange::Position(state.position) },
+            Edit::Body { key, change: BodyChange::Velocity(state.velocity) },
+        ])
+    });
+    Ok(document.apply(&Edit::All(changes.flatten().collect()))?.document)
+}
+
+/// The document as it is at the time asked for, and its motion from there. `go_on` hears how much is done, from 0 to 1,
+/// and how many events there were, and ends it by `false`.
+pub(super) fn simulated(
+    document: &Document,
+    when: When,
+    go_on: &mut dyn FnMut(f64, u64) -> bool,
+) -> Result<(Document, Option<Animation>), ExportError> {
+    let (from, frames) = match when {
+        When::Start => return Ok((document.clone(), None)),
+        When::At(time) => (time, None),
+        When::Motion(frames) => (frames.from, Some(frames)),
+    };
+    if let Some(refusal) = frames.and_then(|frames| frames.refusal()) {
+        return Err(ExportError::Frames(refusal));
+    }
+    let scene = document.scene().ok_or(ExportError::NoScene)?;
+    let mut sim = Simulation::new(scene).map_err(|error| ExportError::Compile(error.to_string()))?;
+    let end = frames.map_or(from, |frames| frames.to);
+    let mut part = |sim: &Simulation, events| go_on(if end > 0.0 { sim.time() / end } else { 1.0 }, events);
+    let mut events = 0;
+    advance(&mut sim, from, &mut events, &mut part)?;
+    let start = with_state_of(document, &sim)?;
+    let motion = frames.map(|frames| record(&mut sim, frames, &mut events, &mut part)).transpose()?;
+    Ok((start, motion))
+}
+
+fn record(
+    sim: &mut Simulation,
+    frames: Frames,
+    events: &mut u64,
+    go_on: &mut dyn FnMut(&Simulation, u64) -> bool,
+) -> Result<Animation, ExportError> {
+    let bodies: Vec<BodyRef> = sim.dynamic_bodies().collect();
+    if frames.count() * bodies.len() as f64 > MOST_SAMPLES {
+        let text = format!(
+            "{:.0} frames of {} bodies are more than {MOST_SAMPLES:.0e} samples: take a shorter time or fewer frames \
+             per second",
+            frames.count(),
+            bodies.len()
+        );
+        return Err(ExportError::Frames(text));
+    }
+    let times = frames.times();
+    let mut tracks: Vec<Vec<Sample>> = bodies.iter().map(|_| Vec::with_capacity(times.len())).collect();
+    for time in &times {
+        advance(sim, *time, events, go_on)?;
+        for (track, body) in tracks.iter_mut().zip(&bodies) {
+            if let Some(state) = sim.state(*body) {
+                track.push(Sample { position: state.position, velocity: state.velocity });
+            }
+        }
+    }
+    let keys = bodies.iter().map(|body| sim.key(*body));
+    let tracks = keys.zip(tracks).filter(|(_, track)| track.len() == times.len()).collect();
+    Ok(Animation { frames, times, tracks })
+}
+
+fn advance(
+    sim: &mut Simulation,
+    until: f64,
+    events: &mut u64,
+    go_on: &mut dyn FnMut(&Simulation, u64) -> bool,
+) -> Result<(), ExportError> {
+    sim.begin(until);
+    loop {
+        match sim.work(PREDICTIONS) {
+            Ok(Progress::Done) => return Ok(()),
+            Ok(Progress::Event(_)) => *events += 1,
+            Ok(Progress::Working) => {}
+            Err(fault) => return Err(ExportError::Fault(fault.to_string())),
+        }
+        if !go_on(sim, *events) {
+            return Err(ExportError::Cancelled { time: sim.time() });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_are_at_products_and_the_last_at_the_end() {
+        let times = |from, to, fps| Frames { from, to, fps }.times();
+        assert_eq!(times(0.0, 1.0, 4.0), [0.0, 0.25, 0.5, 0.75, 1.0]);
+        assert_eq!(times(1.0, 1.6, 4.0), [1.0, 1.25, 1.5, 1.6]);
+        assert_eq!(times(0.0, 0.1, 4.0), [0.0, 0.1]);
+        let minute = times(0.0, 60.0, 60.0);
+        assert_eq!((minute.len(), minute.last()), (3601, Some(&60.0)));
+        assert_eq!(times(0.0, 0.3, 10.0).len(), 4, "three tenths are no whole number of tenths in binary");
+    }
+}

@@ -1,0 +1,61 @@
+//! What the readers find, before it becomes a scene: in the coordinates of robotics, z up.
+
+use glam::{DMat3, DVec3};
+
+#[derive(Clone, Debug)]
+pub(super) struct World {
+    /// m/s².
+    pub gravity: DVec3,
+    /// Density of the air by this program's law of drag, kg/m³.
+    pub density: f64,
+    pub time_speed: f64,
+    /// Size of the map, y up, where the file says it.
+    pub map: Option<DVec3>,
+    pub pieces: Vec<Piece>,
+}
+
+impl World {
+    pub fn with_gravity(gravity: DVec3) -> Self {
+        Self { gravity, density: 0.0, time_speed: 1.0, map: None, pieces: Vec::new() }
+    }
+}
+
+/// A shape at a place.
+#[derive(Clone, Debug)]
+pub(super) struct Piece {
+    pub name: Option<String>,
+    pub id: Option<i64>,
+    pub pose: Pose,
+    pub shape: PieceShape,
+    /// Mass in kg and velocity in m/s of what moves.
+    pub motion: Option<(f64, DVec3)>,
+    pub bounce: f64,
+    pub color: Option<[u8; 3]>,
+    pub hidden: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum PieceShape {
+    /// Radius, m.
+    Sphere(f64),
+    /// Without end, local xy; half sides as drawn, 0 for unknown, m.
+    Plane([f64; 2]),
+    /// Half sides, m.
+    Box(DVec3),
+}
+
+/// Parent from local: x ↦ turn·x + place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Pose {
+    pub place: DVec3,
+    pub turn: DMat3,
+}
+
+impl Pose {
+    pub const IDENTITY: Self = Self { place: DVec3::ZERO, turn: DMat3::IDENTITY };
+
+    /// This one's parent from the other's local.
+    pub fn then(self, inner: Self) -> Self {
+        Self { place: self.place + self.turn * inner.place, turn: self.turn * inner.turn }
+    }
+}

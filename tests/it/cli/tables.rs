@@ -1,0 +1,128 @@
+//! Rows of a run as CSV: columns, filters, what is refused, and the examples of docs/format.md in the shell and in Python.
+
+use std::process::Command;
+
+use super::{BOUNCE, Bench, number, rows};
+
+fn csv(text: &str) -> Vec<Vec<&str>> {
+    text.lines().map(|line| line.split(',').collect()).collect()
+}
+
+#[test]
+fn csv_has_the_numbers_of_json() {
+    let bench = Bench::with_scene(BOUNCE);
+    let run = |options: &[&str]| {
+        let outcome =
+            bench.polyscene(&[&["run", "scene.xml", "--dt", "0.25", "--until", "3"], options].concat());
+        assert_eq!(outcome.code, 0, "{options:?}: {}", outcome.stderr);
+        outcome.stdout
+    };
+    let (json, text) = (rows(&run(&["--events", "-"])), run(&["--events", "-", "--rows", "csv"]));
+    let table = csv(&text);
+    assert_eq!(table.len(), json.len() + 1);
+    for (row, event) in table[1..].iter().zip(&json) {
+        for (name, cell) in table[0].iter().zip(row) {
+            let value = match name.rsplit_once('_') {
+                Some((vector, axis @ ("x" | "y" | "z"))) => {
+                    &event[vector][["x", "y", "z"].iter().position(|a| *a == axis).unwrap()]
+                }
+                _ => &event[*name],
+            };
+            let same = match value {
+                serde_json::Value::Null => cell.is_empty(),
+                serde_json::Value::String(text) => text == cell,
+                value => number(value) == cell.parse::<f64>().expect("a number"),
+            };
+            assert!(same, "{name}: {cell} instead of {value}");
+        }
+    }
+    let (json, text) = (rows(&run(&["--states", "-"])), run(&["--states", "-", "--rows", "csv"]));
+    let table = csv(&text);
+    assert_eq!(table[0], ["t", "id", "x", "y", "z", "vx", "vy", "vz", "state"]);
+    for (row, state) in table[1..].iter().zip(&json) {
+        let body = &state["bodies"][0];
+        let expected = [&state["t"], &body["x"][1], &body["v"][1]].map(number);
+        let found = [0, 3, 6].map(|at| row[at].parse::<f64>().expect("a number"));
+        assert_eq!((found, row[1], row[8]), (expected, "7", body["state"].as_str().unwrap()));
+    }
+    // Every key of an event has its columns.
+    let event = &rows(&run(&["--events", "-"]))[0];
+    let header = csv(&run(&["--events", "-", "--rows", "csv", "--kinds", "rest"])).concat().join(",");
+    for key in event.as_object().unwrap().keys() {
+        assert!(header.contains(key.as_str()), "{key} in {header}");
+    }
+}
+
+#[test]
+fn rows_are_filtered_by_body_kind_and_column() {
+    let two = BOUNCE.replace(
+        "    <HardObject",
+        "    <SoftObject UserID=\"8\"><?polyscene name=\"high\"?><Translation X=\"2\" Y=\"8\" Z=\"2\" /><Sphere><Radius F32=\"0,5\" /></Sphere></SoftObject>\n    <HardObject",
+    );
+    let bench = Bench::with_scene(&two);
+    let run = |options: &[&str]| bench.polyscene(&[&["run", "scene.xml", "--until", "3"], options].concat());
+    let all = csv(&run(&["--events", "-", "--rows", "csv"]).stdout).len();
+    let chosen =
+        run(&["--events", "impacts.csv", "--bodies", "high", "--kinds", "impact", "--columns", "b,a,t"]);
+    assert_eq!(chosen.code, 0, "{}", chosen.stderr);
+    let text = bench.read("impacts.csv");
+    let table = csv(&text);
+    assert_eq!(table[0], ["b", "a", "t"]);
+    assert!(table.len() > 1 && table.len() < all);
+    assert!(table[1..].iter().all(|row| row[..2] == ["9", "8"]), "{text}");
+    let states = rows(&run(&["--states", "-", "--bodies", "8"]).stdout);
+    assert!(
+        states
+            .iter()
+            .all(|row| row["bodies"].as_array().unwrap().len() == 1 && row["bodies"][0]["id"] == "8")
+    );
+    for (options, hint) in [
+        (&["--events", "-", "--bodies", "nobody"][..], "no body has the UserID or name nobody"),
+        (&["--events", "-", "--kinds", "crash"], "crash is none of impact"),
+        (&["--events", "-", "--columns", "t"], "add --rows csv"),
+        (&["--events", "x.csv", "--columns", "t,colour"], "colour is none of seq, t, kind"),
+        (&["--events", "x.csv", "--states", "y.csv", "--columns", "seq"], "leaves no column"),
+        (&["--kinds", "impact"], "--events"),
+    ] {
+        let refused = run(options);
+        assert_eq!((refused.code, refused.stdout.as_str()), (2, ""), "{options:?}: {}", refused.stderr);
+        assert!(refused.stderr.contains(hint), "{options:?}: {}", refused.stderr);
+    }
+}
+
+/// Blocks of a language in docs/format.md.
+fn examples(language: &str) -> Vec<String> {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/format.md");
+    let page = std::fs::read_to_string(path).expect("docs/format.md");
+    let mark = format!("```{language}\n");
+    let blocks = page.split(&mark).skip(1);
+    blocks.map(|block| block.split("```").next().unwrap_or_default().to_owned()).collect()
+}
+
+/// With `PYTHON` as the interpreter, or python3.
+#[test]
+fn the_examples_of_the_documentation_run() {
+    let bench = Bench::with_scene(BOUNCE);
+    let lines: Vec<_> = examples("sh").concat().lines().map(str::to_owned).collect();
+    assert!(lines.len() >= 3);
+    for line in lines {
+        let words: Vec<_> = line.split_whitespace().skip(1).collect();
+        let outcome = bench.polyscene(&words);
+        assert_eq!(outcome.code, 0, "{line}: {}", outcome.stderr);
+    }
+    let interpreter = std::env::var_os("PYTHON").unwrap_or_else(|| "python3".into());
+    let python =
+        |code: &str| Command::new(&interpreter).args(["-c", code]).current_dir(bench.path("")).output();
+    if !python("import pandas").is_ok_and(|output| output.status.success()) {
+        println!("skipped: there is no Python with pandas");
+        return;
+    }
+    let examples = examples("python");
+    assert!(examples.len() >= 3);
+    for example in examples {
+        let output = python(&example).expect("Python");
+        let (said, complaint) =
+            (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+        assert!(output.status.success() && !said.trim().is_empty(), "{example}\n{said}\n{complaint}");
+    }
+}
