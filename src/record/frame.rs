@@ -5,7 +5,9 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::scene::{Diagnostic, NodeKey};
-use crate::sim::{ContactState, Counters, Energy, Event, Method, Momentum, Plan, SteppedBodies, Tiling};
+use crate::sim::{
+    ContactState, Counters, Energy, Event, Method, Momentum, Plan, Rotation, SteppedBodies, Tiling,
+};
 
 /// What a runner is doing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -33,6 +35,8 @@ pub struct BodyFrame {
     /// J.
     pub kinetic: f64,
     pub contact: ContactState,
+    /// `None` where nothing rubs.
+    pub turn: Option<Rotation>,
 }
 
 /// A contact through which bodies of a heap press on each other.

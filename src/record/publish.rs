@@ -83,8 +83,9 @@ fn bodies(simulation: &Simulation) -> Vec<BodyFrame> {
                 velocity: state.velocity,
                 acceleration: state.acceleration,
                 force: simulation.total_force(body),
-                kinetic: 0.5 * simulation.mass(body)? * state.velocity.length_squared(),
+                kinetic: simulation.kinetic(body)?,
                 contact: state.contact,
+                turn: state.turn,
             })
         })
         .collect()

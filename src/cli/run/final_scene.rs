@@ -27,7 +27,7 @@ impl<'a> FinalScene<'a> {
         check_writable(self.path).map_err(|error| CliError::unwritable(self.path, &error))
     }
 
-    /// Writes `document` with the positions and velocities of `sim` now; a file is replaced in one go. A file
+    /// Writes `document` with the positions, velocities and spins of `sim` now; a file is replaced in one go. A file
     /// that another program wrote during the run stays, and the state goes beside it: neither is lost.
     pub fn write(&self, document: &Document, sim: &Simulation) -> Result<(), CliError> {
         let last = with_state_of(document, sim)?;
@@ -51,10 +51,11 @@ impl<'a> FinalScene<'a> {
 fn with_state_of(document: &Document, sim: &Simulation) -> Result<Document, CliError> {
     let changes = sim.dynamic_bodies().filter_map(|body| {
         let (key, state) = (sim.key(body), sim.state(body)?);
-        Some([
-            Edit::Body { key, change: BodyChange::Position(state.position) },
-            Edit::Body { key, change: BodyChange::Velocity(state.velocity) },
-        ])
+        let turn = state.turn.map(|turn| turn.changes());
+        let moves = [BodyChange::Position(state.position), BodyChange::Velocity(state.velocity)];
+        Some(
+            moves.into_iter().chain(turn.into_iter().flatten()).map(move |change| Edit::Body { key, change }),
+        )
     });
     let edited = document.apply(&Edit::All(changes.flatten().collect()));
     let edited = edited
