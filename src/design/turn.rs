@@ -77,6 +77,9 @@ pub fn turned(body: &Body, turn: DMat3, pivot: DVec3) -> Vec<BodyChange> {
     {
         changes.push(BodyChange::Velocity(turn * velocity));
     }
+    if body.spin != DVec3::ZERO {
+        changes.push(BodyChange::Spin(turn * body.spin));
+    }
     changes
 }
 

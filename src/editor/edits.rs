@@ -135,7 +135,7 @@ impl Session {
         forces.chain(bodies).collect()
     }
 
-    /// Writes the poses and velocities of the frame into the document, as one undo point, and starts
+    /// Writes the poses, velocities and spins of the frame into the document, as one undo point, and starts
     /// from them.
     pub(super) fn take_state_as_start(&mut self) -> Outcome {
         self.run.pause();
@@ -159,6 +159,9 @@ impl Session {
         for now in self.run.frame.bodies.iter().filter(|now| there.contains(&now.key)) {
             edits.push(Edit::Body { key: now.key, change: BodyChange::Position(now.position) });
             edits.push(Edit::Body { key: now.key, change: BodyChange::Velocity(now.velocity) });
+            if let Some(turn) = now.turn {
+                edits.extend(turn.changes().map(|change| Edit::Body { key: now.key, change }));
+            }
         }
         edits
     }

@@ -23,7 +23,7 @@ pub struct Field<T: 'static, C: 'static> {
     /// The change that sets it; `None` where the object has no such number.
     pub set: fn(&T, DVec3) -> Option<C>,
     /// What it is at the frame's time, where the simulation changes it.
-    pub now: Option<fn(&BodyFrame) -> DVec3>,
+    pub now: Option<fn(&BodyFrame) -> Option<DVec3>>,
 }
 
 /// What a range allows, in words; `None` where it allows everything.
@@ -155,7 +155,7 @@ pub const BODY_FIELDS: &[Field<Body, BodyChange>] = &[
         range: ANY,
         get: |body| Some(body.position),
         set: |_, position| Some(BodyChange::Position(position)),
-        now: Some(|frame| frame.position),
+        now: Some(|frame| Some(frame.position)),
     },
     Field {
         label: "Rotation",
@@ -176,7 +176,16 @@ pub const BODY_FIELDS: &[Field<Body, BodyChange>] = &[
             Motion::Static => None,
         },
         set: |body, velocity| body.is_dynamic().then_some(BodyChange::Velocity(velocity)),
-        now: Some(|frame| frame.velocity),
+        now: Some(|frame| Some(frame.velocity)),
+    },
+    Field {
+        label: "Angular velocity",
+        unit: "rad/s",
+        axes: XYZ,
+        range: ANY,
+        get: |body| body.is_dynamic().then_some(body.spin),
+        set: |body, spin| body.is_dynamic().then_some(BodyChange::Spin(spin)),
+        now: Some(|frame| Some(frame.turn?.spin)),
     },
     Field {
         label: "Mass",
@@ -197,6 +206,33 @@ pub const BODY_FIELDS: &[Field<Body, BodyChange>] = &[
         range: (0.0, 1.0),
         get: |body| Some(number(body.bounce)),
         set: |_, bounce| Some(BodyChange::Bounce(bounce.x)),
+        now: None,
+    },
+    Field {
+        label: "Friction",
+        unit: "",
+        axes: NUMBER,
+        range: NOT_NEGATIVE,
+        get: |body| Some(number(body.roughness.friction)),
+        set: |_, friction| Some(BodyChange::Friction(friction.x)),
+        now: None,
+    },
+    Field {
+        label: "Rolling friction",
+        unit: "",
+        axes: NUMBER,
+        range: NOT_NEGATIVE,
+        get: |body| Some(number(body.roughness.rolling)),
+        set: |_, rolling| Some(BodyChange::RollingFriction(rolling.x)),
+        now: None,
+    },
+    Field {
+        label: "Tangential",
+        unit: "",
+        axes: NUMBER,
+        range: (0.0, 1.0),
+        get: |body| Some(number(body.roughness.tangential)),
+        set: |_, tangential| Some(BodyChange::Tangential(tangential.x)),
         now: None,
     },
     Field {

@@ -153,13 +153,14 @@ fn same_force(a: &Force, b: &Force) -> bool {
 }
 
 fn same_body(a: &Body, b: &Body) -> bool {
-    a.key == b.key && a.id == b.id && a.motion == b.motion && same_surface(a, b)
+    a.key == b.key && a.id == b.id && a.motion == b.motion && a.spin == b.spin && same_surface(a, b)
 }
 
 fn same_surface(a: &Body, b: &Body) -> bool {
     a.position == b.position
         && a.rotation == b.rotation
         && a.bounce == b.bounce
+        && a.roughness == b.roughness
         && a.material == b.material
         && a.shape == b.shape
 }
@@ -209,19 +210,17 @@ fn live_body(running: Option<&Body>, wanted: &Body, edits: &mut Vec<SimEdit>) ->
     let mut next = Body { id: running.id, label: running.label.clone(), ..wanted.clone() };
     match (running.motion, wanted.motion) {
         (Motion::Static, Motion::Static) => {
-            let only_bounce = Body { bounce: running.bounce, ..wanted.clone() };
-            if !same_surface(running, &only_bounce) {
+            let only_rules = Body { bounce: running.bounce, roughness: running.roughness, ..wanted.clone() };
+            if same_surface(running, &only_rules) {
+                live_rules(running, wanted, edits);
+            } else {
                 edits.push(SimEdit::ChangeStatic(Box::new(next.clone())));
-            } else if running.bounce != wanted.bounce {
-                edits.push(SimEdit::Bounce(wanted.key, wanted.bounce));
             }
         }
         (Motion::Dynamic { mass: old_mass, velocity }, Motion::Dynamic { mass, .. }) => {
-            next =
-                Body { bounce: wanted.bounce, motion: Motion::Dynamic { mass, velocity }, ..running.clone() };
-            if running.bounce != wanted.bounce {
-                edits.push(SimEdit::Bounce(wanted.key, wanted.bounce));
-            }
+            let Body { bounce, roughness, .. } = *wanted;
+            next = Body { bounce, roughness, motion: Motion::Dynamic { mass, velocity }, ..running.clone() };
+            live_rules(running, wanted, edits);
             if old_mass != mass {
                 edits.push(SimEdit::Mass(wanted.key, mass));
             }
@@ -229,4 +228,14 @@ fn live_body(running: Option<&Body>, wanted: &Body, edits: &mut Vec<SimEdit>) ->
         _ => next = running.clone(),
     }
     Some(next)
+}
+
+/// What a body does to others in an impact or in contact.
+fn live_rules(running: &Body, wanted: &Body, edits: &mut Vec<SimEdit>) {
+    if running.bounce != wanted.bounce {
+        edits.push(SimEdit::Bounce(wanted.key, wanted.bounce));
+    }
+    if running.roughness != wanted.roughness {
+        edits.push(SimEdit::Roughness(wanted.key, wanted.roughness));
+    }
 }

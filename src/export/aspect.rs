@@ -18,6 +18,13 @@ pub enum Aspect {
     Bounce,
     /// That contact is without friction, so that nothing begins to spin.
     Frictionless,
+    /// Coulomb's friction, the geometric mean of both bodies' coefficients.
+    Friction,
+    RollingFriction,
+    /// Tangential restitution.
+    Tangential,
+    /// Angular velocities at the start.
+    Spins,
     UniformGravity,
     PointGravity,
     Drag,
@@ -89,8 +96,17 @@ pub(super) const ASPECTS: &[AspectInfo] = &[
     row(Aspect::Velocities, "start velocity", "start velocities", |s| bodies(s, moves)),
     row(Aspect::Bounce, "restitution", "restitutions", |s| bodies(s, |_| true)),
     row(Aspect::Frictionless, "contact law without friction", "", |s| {
-        if s.dynamic().next().is_some() { vec![String::new()] } else { Vec::new() }
+        let is_smooth = s.scene.bodies.iter().all(|body| body.roughness.friction == 0.0);
+        if is_smooth && s.dynamic().next().is_some() { vec![String::new()] } else { Vec::new() }
     }),
+    row(Aspect::Friction, "friction", "frictions", |s| bodies(s, |body| body.roughness.friction != 0.0)),
+    row(Aspect::RollingFriction, "rolling friction", "rolling frictions", |s| {
+        bodies(s, |body| body.roughness.rolling != 0.0)
+    }),
+    row(Aspect::Tangential, "tangential restitution", "tangential restitutions", |s| {
+        bodies(s, |body| body.roughness.tangential != 0.0)
+    }),
+    row(Aspect::Spins, "start spin", "start spins", |s| bodies(s, |body| body.spin != glam::DVec3::ZERO)),
     row(Aspect::UniformGravity, "uniform gravity", "uniform gravities", |s| {
         forces(s, |force| matches!(force.kind, ForceKind::GravityPlane { .. }))
     }),

@@ -51,7 +51,13 @@ const COLUMNS: &[(&str, Cell)] = &[
     ("vx_m_per_s", |body| velocity(body, 0)),
     ("vy_m_per_s", |body| velocity(body, 1)),
     ("vz_m_per_s", |body| velocity(body, 2)),
+    ("wx_rad_per_s", |body| spin(body, 0)),
+    ("wy_rad_per_s", |body| spin(body, 1)),
+    ("wz_rad_per_s", |body| spin(body, 2)),
     ("bounce", |body| number(body.bounce)),
+    ("friction", |body| number(body.roughness.friction)),
+    ("rolling_friction", |body| number(body.roughness.rolling)),
+    ("tangential", |body| number(body.roughness.tangential)),
     ("material", |body| text(body.material.as_deref())),
     ("color", |body| body.color.map_or(String::new(), |[r, g, b]| format!("#{r:02x}{g:02x}{b:02x}"))),
     ("hidden", |body| body.hidden.to_string()),
@@ -115,6 +121,10 @@ fn velocity(body: &Body, axis: usize) -> String {
     }
 }
 
+fn spin(body: &Body, axis: usize) -> String {
+    if body.is_dynamic() { number(body.spin.to_array()[axis]) } else { String::new() }
+}
+
 fn fate(source: &Source<'_>, aspect: Aspect) -> Fate {
     const NO_MOTION: [Aspect; 5] =
         [Aspect::BodyNames, Aspect::UserIds, Aspect::Motion, Aspect::Comments, Aspect::Unknown];
@@ -128,6 +138,10 @@ fn fate(source: &Source<'_>, aspect: Aspect) -> Fate {
         | Aspect::Masses
         | Aspect::Velocities
         | Aspect::Bounce
+        | Aspect::Friction
+        | Aspect::RollingFriction
+        | Aspect::Tangential
+        | Aspect::Spins
         | Aspect::BodyNames
         | Aspect::Groups
         | Aspect::Colors

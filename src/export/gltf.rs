@@ -11,7 +11,7 @@ use super::mesh::{self, Mesh};
 use super::motion::Animation;
 use super::names;
 use super::report::{Fate, Report, approximated, dropped, kept, no_meaning, not_needed};
-use crate::scene::{Body, ForceKind, Motion, Shape, Viewpoint, rotation_matrix};
+use crate::scene::{Body, ForceKind, Motion, Roughness, Shape, Viewpoint, rotation_matrix};
 
 pub(super) const FORMAT: Format = Format {
     id: "gltf",
@@ -240,6 +240,14 @@ const TAN_HALF_FOV: f64 = 0.363_970_234_266_202_4;
 
 fn extras(body: &Body) -> Value {
     let mut extras = json!({ "UserID": body.id, "bounce": body.bounce });
+    let Roughness { friction, rolling, tangential } = body.roughness;
+    let rough = [("friction", friction), ("rolling_friction", rolling), ("tangential", tangential)];
+    for (name, value) in rough.into_iter().filter(|(_, value)| *value != 0.0) {
+        extras[name] = json!(value);
+    }
+    if body.spin != DVec3::ZERO {
+        extras["angular_velocity_rad_per_s"] = json!(body.spin.to_array());
+    }
     if let Motion::Dynamic { mass, velocity } = body.motion {
         extras["mass_kg"] = json!(mass);
         extras["velocity_m_per_s"] = json!(velocity.to_array());
@@ -306,6 +314,10 @@ fn fate(aspect: Aspect) -> Fate {
         Aspect::Masses
         | Aspect::Velocities
         | Aspect::Bounce
+        | Aspect::Friction
+        | Aspect::RollingFriction
+        | Aspect::Tangential
+        | Aspect::Spins
         | Aspect::UniformGravity
         | Aspect::PointGravity
         | Aspect::Drag => as_extras(),

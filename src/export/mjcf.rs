@@ -2,13 +2,15 @@
 
 use std::io;
 
+use glam::DVec3;
+
 use super::aspect::Aspect;
 use super::axes::{quaternion, z_up, z_up_rotation};
 use super::contact::{Yielding, damping_ratio};
 use super::error::ExportError;
 use super::format::{Exported, Format, Source};
 use super::names;
-use super::pairs::Pairs;
+use super::pairs::{Pairs, Surface};
 use super::report::{Fate, Report, approximated, dropped, kept, no_meaning, not_needed};
 use super::slab::Slabs;
 use super::xml::{Xml, number, numbers, rgba, vector};
@@ -69,8 +71,9 @@ impl Writer<'_> {
         self.memory()?;
         self.map()?;
         self.xml.open("default", &[])?;
-        self.xml.empty("geom", &[("condim", "1"), ("solimp", IMPEDANCE)])?;
-        self.xml.empty("pair", &[("condim", "1"), ("solimp", IMPEDANCE)])?;
+        let condim = if self.is_rough() { "3" } else { "1" };
+        self.xml.empty("geom", &[("condim", condim), ("solimp", IMPEDANCE)])?;
+        self.xml.empty("pair", &[("condim", condim), ("solimp", IMPEDANCE)])?;
         self.xml.close("default")?;
         self.xml.open("worldbody", &[])?;
         self.xml.empty("light", &[("directional", "true"), ("pos", "0 0 1"), ("dir", "-0.3 0.4 -0.9")])?;
@@ -126,8 +129,11 @@ impl Writer<'_> {
     }
 
     fn geom(&mut self, name: &str, body: &Body) -> io::Result<()> {
-        let solref = self.solref(self.pairs.own(body));
-        let mut attributes = vec![("name", name.to_owned()), ("solref", solref)];
+        let own = self.pairs.own(body);
+        let mut attributes = vec![("name", name.to_owned()), ("solref", self.solref(own.bounce))];
+        if self.is_rough() {
+            attributes.push(("friction", format!("{} 0 0", number(own.friction))));
+        }
         match body.shape {
             Shape::Sphere { radius } => {
                 attributes.extend([("type", "sphere".into()), ("size", number(radius))]);
@@ -160,6 +166,10 @@ impl Writer<'_> {
         self.xml.empty("geom", &attributes)
     }
 
+    fn is_rough(&self) -> bool {
+        self.source.scene.bodies.iter().any(|body| body.roughness.friction != 0.0)
+    }
+
     /// Stiffness and damping themselves, which MuJoCo marks by their sign.
     fn solref(&self, restitution: f64) -> String {
         let stiffness = self.contact.stiffness;
@@ -172,12 +182,18 @@ impl Writer<'_> {
             return Ok(());
         }
         self.xml.open("contact", &[])?;
+        let is_rough = self.is_rough();
         let mut last = (f64::NAN, String::new());
-        for &(one, other, restitution) in &self.pairs.written {
-            if last.0 != restitution {
-                last = (restitution, self.solref(restitution));
+        for &(one, other, Surface { bounce, friction }) in &self.pairs.written {
+            if last.0 != bounce {
+                last = (bounce, self.solref(bounce));
             }
-            let geoms = [("geom1", &*self.names[one]), ("geom2", &*self.names[other]), ("solref", &last.1)];
+            let (one, other) = (&*self.names[one], &*self.names[other]);
+            let mut geoms = vec![("geom1", one), ("geom2", other), ("solref", &*last.1)];
+            let friction = format!("{0} {0} 0 0 0", number(friction));
+            if is_rough {
+                geoms.push(("friction", &friction));
+            }
             self.xml.empty("pair", &geoms)?;
         }
         self.xml.close("contact")
@@ -190,7 +206,9 @@ impl Writer<'_> {
             let Motion::Dynamic { velocity, .. } = body.motion else { continue };
             let q = quaternion(z_up_rotation(body.rotation));
             places.push(format!("{} {}", vector(z_up(body.position)), numbers(&[q.w, q.x, q.y, q.z])));
-            velocities.push(format!("{} 0 0 0", vector(z_up(velocity))));
+            // MuJoCo has the spin of a free joint in the axes of the body.
+            let spin = z_up_rotation(body.rotation).transpose() * z_up(body.spin);
+            velocities.push(format!("{} {}", vector(z_up(velocity)), vector(spin + DVec3::ZERO)));
         }
         if places.is_empty() {
             return Ok(());
@@ -210,6 +228,12 @@ impl Writer<'_> {
             Aspect::Velocities => kept("in the keyframe `start`: reset to it before the first step"),
             Aspect::Bounce => approximated(self.how_bounce()),
             Aspect::Frictionless => kept("as condim 1"),
+            Aspect::Friction => {
+                approximated("as condim 3 with a pyramid of friction, over steps instead of at once")
+            }
+            Aspect::RollingFriction => dropped("not written by this version"),
+            Aspect::Tangential => dropped("MuJoCo restores no slip"),
+            Aspect::Spins => kept("in the keyframe `start`, in the axes of the body"),
             Aspect::UniformGravity => kept("as their sum, in `option`"),
             Aspect::PointGravity => dropped("MuJoCo has uniform gravity only"),
             Aspect::Drag => kept("as the density of the medium, with a blunt drag coefficient of 0.25"),

@@ -92,10 +92,10 @@ impl Animation {
 pub fn with_state_of(document: &Document, sim: &Simulation) -> Result<Document, EditError> {
     let changes = sim.dynamic_bodies().filter_map(|body| {
         let (key, state) = (sim.key(body), sim.state(body)?);
-        Some([
-            Edit::Body { key, change: BodyChange::Position(state.position) },
-            Edit::Body { key, change: BodyChange::Velocity(state.velocity) },
-        ])
+        let turn = state.turn.map(|turn| turn.changes());
+        let moves = [BodyChange::Position(state.position), BodyChange::Velocity(state.velocity)];
+        let changes = moves.into_iter().chain(turn.into_iter().flatten());
+        Some(changes.map(move |change| Edit::Body { key, change }))
     });
     Ok(document.apply(&Edit::All(changes.flatten().collect()))?.document)
 }

@@ -1,27 +1,53 @@
-//! Restitution is a product of two numbers here and MuJoCo mixes the two geoms of a contact otherwise: which geoms say
+//! Restitution is a product of two numbers here, friction their geometric mean, and MuJoCo mixes the two geoms of a contact otherwise: which geoms say
 //! what, and which pairs are written out.
 //!
-//! MuJoCo takes the geom of higher priority, or the one with more damping. So a moving sphere says its own square,
-//! b², a static body its product with the commonest moving ones, at a higher priority, and what then differs is a pair.
+//! MuJoCo takes the geom of higher priority, or the one with more damping and the larger friction. So a moving sphere
+//! says what it has with its like, a static body what it has with the commonest moving ones, at a higher priority, and
+//! what then differs is a pair.
 
 use crate::scene::{Body, Scene};
 
 /// More pairs than this would be most of the file; the rest is approximated.
 const MOST_PAIRS: usize = 100_000;
 
-/// The restitutions of all contacts of a scene.
+/// The restitutions and frictions of all contacts of a scene.
 pub(super) struct Pairs {
-    /// Bounce of most moving bodies.
-    common: f64,
-    /// Index of both bodies, and their restitution.
-    pub written: Vec<(usize, usize, f64)>,
+    /// What most moving bodies have.
+    common: Surface,
+    /// Index of both bodies, and what they have together.
+    pub written: Vec<(usize, usize, Surface)>,
     /// How many more pairs there would be.
     pub left_out: usize,
 }
 
-/// Bodies with one Bounce.
+/// Restitution and friction, of a body or of two.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Surface {
+    pub bounce: f64,
+    pub friction: f64,
+}
+
+impl Surface {
+    fn of(body: &Body) -> Self {
+        Self { bounce: body.bounce, friction: body.roughness.friction }
+    }
+
+    /// With another. Above 1 an impact would add energy, which damping cannot.
+    fn with(self, other: Self) -> Self {
+        Self {
+            bounce: (self.bounce * other.bounce).min(1.0),
+            friction: libm::sqrt(self.friction * other.friction),
+        }
+    }
+
+    fn in_order(&self, other: &Self) -> std::cmp::Ordering {
+        self.bounce.total_cmp(&other.bounce).then(self.friction.total_cmp(&other.friction))
+    }
+}
+
+/// Bodies with one surface.
 struct Class {
-    bounce: f64,
+    surface: Surface,
     members: Vec<usize>,
 }
 
@@ -30,9 +56,9 @@ impl Pairs {
         let moving = classes(scene, Body::is_dynamic);
         let fixed = classes(scene, |body| !body.is_dynamic());
         let most = moving.iter().max_by_key(|class| class.members.len());
-        let common = most.map_or(1.0, |class| class.bounce);
+        let common = most.map_or(Surface { bounce: 1.0, friction: 0.0 }, |class| class.surface);
         let mut pairs = Self { common, written: Vec::new(), left_out: 0 };
-        let others = || moving.iter().filter(|class| class.bounce != common);
+        let others = || moving.iter().filter(|class| class.surface != common);
         for (class, other) in fixed.iter().flat_map(|class| others().map(move |other| (class, other))) {
             pairs.add(class, other);
         }
@@ -45,37 +71,30 @@ impl Pairs {
     }
 
     /// What a geom says.
-    pub fn own(&self, body: &Body) -> f64 {
-        let other = if body.is_dynamic() { body.bounce } else { self.common };
-        product(body.bounce, other)
+    pub fn own(&self, body: &Body) -> Surface {
+        let own = Surface::of(body);
+        own.with(if body.is_dynamic() { own } else { self.common })
     }
 
     fn add(&mut self, one: &Class, other: &Class) {
-        let e = product(one.bounce, other.bounce);
+        let both = one.surface.with(other.surface);
         let count = one.members.len().saturating_mul(other.members.len());
         if self.written.len().saturating_add(count) > MOST_PAIRS {
             self.left_out = self.left_out.saturating_add(count);
             return;
         }
         for &a in &one.members {
-            self.written.extend(other.members.iter().map(|&b| (a, b, e)));
+            self.written.extend(other.members.iter().map(|&b| (a, b, both)));
         }
     }
 }
 
-/// Above 1 an impact would add energy, which damping cannot.
-fn product(one: f64, other: f64) -> f64 {
-    (one * other).min(1.0)
-}
-
-/// In the order of their Bounce.
+/// In the order of their surfaces.
 fn classes(scene: &Scene, wanted: impl Fn(&Body) -> bool) -> Vec<Class> {
     let mut members: Vec<_> = (0..scene.bodies.len()).filter(|&at| wanted(&scene.bodies[at])).collect();
-    members.sort_by(|&a, &b| scene.bodies[a].bounce.total_cmp(&scene.bodies[b].bounce));
-    let same = |a: &usize, b: &usize| scene.bodies[*a].bounce == scene.bodies[*b].bounce;
-    let class = |members: &[usize]| {
-        let bounce = scene.bodies[*members.first()?].bounce;
-        Some(Class { bounce, members: members.to_vec() })
-    };
+    let of = |at: usize| Surface::of(&scene.bodies[at]);
+    members.sort_by(|&a, &b| of(a).in_order(&of(b)));
+    let same = |a: &usize, b: &usize| of(*a) == of(*b);
+    let class = |members: &[usize]| Some(Class { surface: of(*members.first()?), members: members.to_vec() });
     members.chunk_by(same).filter_map(class).collect()
 }

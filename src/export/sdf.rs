@@ -1,4 +1,4 @@
-//! SDF 1.9, the XML of Gazebo: one model per body, surfaces that bounce and do not rub, start velocities as a state.
+//! SDF 1.9, the XML of Gazebo: one model per body, surfaces that bounce and rub, start velocities as a state.
 
 use std::io;
 
@@ -162,8 +162,9 @@ impl Writer<'_> {
         self.xml.close("bounce")?;
         self.xml.open("friction", &[])?;
         self.xml.open("ode", &[])?;
-        self.xml.text("mu", "0")?;
-        self.xml.text("mu2", "0")?;
+        let friction = number(body.roughness.friction);
+        self.xml.text("mu", &friction)?;
+        self.xml.text("mu2", &friction)?;
         self.xml.close("ode")?;
         self.xml.close("friction")?;
         self.xml.close("surface")
@@ -173,7 +174,9 @@ impl Writer<'_> {
     fn state(&mut self) -> io::Result<()> {
         let moving: Vec<_> = (self.source.scene.bodies.iter().enumerate())
             .filter_map(|(at, body)| match body.motion {
-                Motion::Dynamic { velocity, .. } if velocity != glam::DVec3::ZERO => {
+                Motion::Dynamic { velocity, .. }
+                    if velocity != glam::DVec3::ZERO || body.spin != glam::DVec3::ZERO =>
+                {
                     Some((at, body, velocity))
                 }
                 Motion::Dynamic { .. } | Motion::Static => None,
@@ -189,7 +192,7 @@ impl Writer<'_> {
             self.xml.text("pose", &pose(body))?;
             self.xml.open("link", &[("name", "link")])?;
             self.xml.text("pose", &pose(body))?;
-            self.xml.text("velocity", &format!("{} 0 0 0", vector(z_up(velocity))))?;
+            self.xml.text("velocity", &format!("{} {}", vector(z_up(velocity)), vector(z_up(body.spin))))?;
             self.xml.close("link")?;
             self.xml.close("model")?;
         }
@@ -211,6 +214,14 @@ impl Writer<'_> {
                 self.contact.step
             )),
             Aspect::Frictionless => kept("as mu 0 and mu2 0"),
+            Aspect::Friction => approximated(
+                "each surface has its own as mu and mu2; ODE takes the smaller of two (here: geometric mean)",
+            ),
+            Aspect::RollingFriction => dropped("not written by this version"),
+            Aspect::Tangential => dropped("SDF restores no slip"),
+            Aspect::Spins => {
+                approximated("as a state of the world, which Gazebo Classic reads and gz sim does not")
+            }
             Aspect::UniformGravity => kept("as their sum"),
             Aspect::PointGravity => dropped("a world has one uniform gravity"),
             Aspect::Drag => dropped("there is no drag of air without a plugin"),

@@ -27,11 +27,11 @@ pub(super) const FORMAT: Format = Format {
 fn write(source: &Source<'_>) -> Result<Exported, ExportError> {
     let mut text = header(source.motion);
     gravity(&mut text, source.gravity());
-    let bounces = bounces(source);
-    materials(&mut text, &bounces);
+    let surfaces = surfaces(source);
+    materials(&mut text, &surfaces);
     text.push_str("    def Xform \"Bodies\"\n    {\n");
     for (body, name) in source.scene.bodies.iter().zip(names::identifiers(source.scene)) {
-        prim(&mut text, source, body, &name, &bounces);
+        prim(&mut text, source, body, &name, &surfaces);
     }
     text.push_str("    }\n}\n");
     Ok(Exported { bytes: text.into_bytes(), report: Report::of(source, fate) })
@@ -82,37 +82,49 @@ fn gravity(text: &mut String, gravity: DVec3) {
     );
 }
 
-/// The different values of Bounce, in order.
-fn bounces(source: &Source<'_>) -> Vec<f64> {
-    let mut bounces: Vec<_> = source.scene.bodies.iter().map(|body| body.bounce).collect();
-    bounces.sort_by(f64::total_cmp);
-    bounces.dedup();
-    bounces
+/// Bounce and friction of a body.
+type Surface = (f64, f64);
+
+fn surface(body: &Body) -> Surface {
+    (body.bounce, body.roughness.friction)
 }
 
-/// One per value of Bounce. How two mix is not said by USD; PhysX is told to multiply.
-fn materials(text: &mut String, bounces: &[f64]) {
+fn in_order(one: &Surface, other: &Surface) -> std::cmp::Ordering {
+    one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1))
+}
+
+/// The different surfaces, in order.
+fn surfaces(source: &Source<'_>) -> Vec<Surface> {
+    let mut surfaces: Vec<_> = source.scene.bodies.iter().map(surface).collect();
+    surfaces.sort_by(in_order);
+    surfaces.dedup();
+    surfaces
+}
+
+/// One per surface. How two mix is not said by USD; PhysX is told to multiply their restitutions.
+fn materials(text: &mut String, surfaces: &[Surface]) {
     text.push_str("    def Scope \"Materials\"\n    {\n");
-    for (at, bounce) in bounces.iter().enumerate() {
+    for (at, (bounce, friction)) in surfaces.iter().enumerate() {
         let _ = write!(
             text,
             "        def Material \"Bounce{at}\" (
             prepend apiSchemas = [\"PhysicsMaterialAPI\"]
         )
         {{
-            float physics:dynamicFriction = 0
+            float physics:dynamicFriction = {friction}
             float physics:restitution = {}
-            float physics:staticFriction = 0
+            float physics:staticFriction = {friction}
             custom uniform token physxMaterial:restitutionCombineMode = \"multiply\"
         }}
 ",
-            number(bounce.min(1.0))
+            number(bounce.min(1.0)),
+            friction = number(*friction)
         );
     }
     text.push_str("    }\n\n");
 }
 
-fn prim(text: &mut String, source: &Source<'_>, body: &Body, name: &str, bounces: &[f64]) {
+fn prim(text: &mut String, source: &Source<'_>, body: &Body, name: &str, surfaces: &[Surface]) {
     let kind = match body.shape {
         Shape::Sphere { .. } => "Sphere",
         Shape::Plane { .. } => "Mesh",
@@ -142,7 +154,7 @@ fn prim(text: &mut String, source: &Source<'_>, body: &Body, name: &str, bounces
         quoted(body.display_name()),
         schemas.join(", ")
     );
-    for line in attributes(body, bounces) {
+    for line in attributes(body, surfaces) {
         let _ = writeln!(text, "            {line}");
     }
     if let Some(motion) = source.motion {
@@ -161,14 +173,19 @@ fn custom_data(body: &Body) -> String {
     data
 }
 
-fn attributes(body: &Body, bounces: &[f64]) -> Vec<String> {
+fn attributes(body: &Body, surfaces: &[Surface]) -> Vec<String> {
     let mut lines = shape(&body.shape);
     if let Motion::Dynamic { mass, velocity } = body.motion {
         lines.push(format!("float physics:mass = {}", number(mass)));
         lines.push(format!("vector3f physics:velocity = {}", tuple(&velocity.to_array())));
+        if body.spin != DVec3::ZERO {
+            let degrees = body.spin.to_array().map(f64::to_degrees);
+            lines.push(format!("vector3f physics:angularVelocity = {}", tuple(&degrees)));
+        }
     }
     if !matches!(body.shape, Shape::Unbuilt { .. }) {
-        let at = bounces.binary_search_by(|bounce| bounce.total_cmp(&body.bounce)).unwrap_or_default();
+        let own = surface(body);
+        let at = surfaces.binary_search_by(|other| in_order(other, &own)).unwrap_or_default();
         lines.push(format!("rel material:binding:physics = </World/Materials/Bounce{at}>"));
     }
     if let Some(color) = body.color {
@@ -245,6 +262,12 @@ fn fate(aspect: Aspect) -> Fate {
             "each body has its Bounce, above 1 as 1; how two mix is up to the engine (PhysX is told to multiply, as here)",
         ),
         Aspect::Frictionless => kept("as friction 0"),
+        Aspect::Friction => approximated(
+            "each body has its own as static and dynamic friction; how two mix is up to the engine (here: geometric mean)",
+        ),
+        Aspect::RollingFriction => dropped("UsdPhysics has none"),
+        Aspect::Tangential => dropped("UsdPhysics restores no slip"),
+        Aspect::Spins => kept("in degrees per second, to the digits of a 32-bit number"),
         Aspect::UniformGravity => kept("as their sum"),
         Aspect::PointGravity => dropped("a PhysicsScene has one uniform gravity"),
         Aspect::Drag => dropped("UsdPhysics has no drag of air"),

@@ -221,9 +221,8 @@ impl App {
             return false;
         }
         let answered = !self.session().awaits_simulation();
-        let busy = script.waits_for_simulation(answered)
-            || self.accuracy.is_running()
-            || self.dialogs.are_working();
+        let busy =
+            script.waits_for_simulation(answered) || self.accuracy.is_running() || self.dialogs.are_working();
         if busy || script.wait_until.is_some_and(|until| Instant::now() < until) {
             ctx.request_repaint_after(Duration::from_millis(10));
             return true;

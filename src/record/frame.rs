@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::ledger::{EventRow, Ledger};
 use super::paths::{BodyPath, ImpactBody};
 use crate::scene::{Diagnostic, NodeKey};
-use crate::sim::{ContactState, Counters, Energy, Method, Momentum, Plan, SteppedBodies, Tiling};
+use crate::sim::{ContactState, Counters, Energy, Method, Momentum, Plan, Rotation, SteppedBodies, Tiling};
 
 /// What a runner is doing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -35,6 +35,8 @@ pub struct BodyFrame {
     /// J.
     pub kinetic: f64,
     pub contact: ContactState,
+    /// `None` where nothing rubs.
+    pub turn: Option<Rotation>,
 }
 
 /// A contact through which bodies of a heap press on each other.

@@ -152,8 +152,9 @@ fn body_frame(
         velocity: state.velocity,
         acceleration: state.acceleration,
         force,
-        kinetic: 0.5 * simulation.mass(body)? * state.velocity.length_squared(),
+        kinetic: simulation.kinetic(body, state)?,
         contact: state.contact,
+        turn: state.turn,
     })
 }
 

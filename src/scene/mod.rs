@@ -38,7 +38,7 @@ pub use save::{
     FileId, FileStamp, canonical_target, check_writable, same_file, write_atomically, write_private,
 };
 pub use schema::schema;
-pub use types::{Body, Force, ForceKind, Map, Motion, NodeKey, Scene, Shape, rotation_matrix};
+pub use types::{Body, Force, ForceKind, Map, Motion, NodeKey, Roughness, Scene, Shape, rotation_matrix};
 pub use viewpoint::Viewpoint;
 pub use vocabulary::{AttributeInfo, Content, ElementInfo, Need, Part, Since, VOCABULARY, ValueKind};
 pub use xml::XmlElement;

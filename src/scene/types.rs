@@ -119,6 +119,10 @@ pub struct Body {
     pub rotation: DVec3,
     /// Coefficient of restitution; a pair uses the product of both.
     pub bounce: f64,
+    /// What resists sliding and rolling on other bodies.
+    pub roughness: Roughness,
+    /// Angular velocity at the start, rad/s, in the axes of the map; zero for a static body.
+    pub spin: DVec3,
     /// A name that custom forces may look at.
     pub material: Option<String>,
     pub motion: Motion,
@@ -126,7 +130,7 @@ pub struct Body {
 }
 
 impl Body {
-    /// A body as scenes made by code have them: named by its UserID, which is its key too, Bounce 1, not turned, and
+    /// A body as scenes made by code have them: named by its UserID, which is its key too, Bounce 1, smooth, not turned, and
     /// without a colour or a material. Give the rest by `Body { bounce: 0.5, ..Body::new(…) }`.
     pub fn new(id: i64, position: DVec3, motion: Motion, shape: Shape) -> Self {
         Self {
@@ -141,6 +145,8 @@ impl Body {
             position,
             rotation: DVec3::ZERO,
             bounce: 1.0,
+            roughness: Roughness::default(),
+            spin: DVec3::ZERO,
             material: None,
             motion,
             shape,
@@ -160,6 +166,18 @@ impl Body {
     pub fn repeats_id(&self) -> bool {
         self.label.contains('#')
     }
+}
+
+/// What resists sliding and rolling on a body. A pair uses the geometric mean of both numbers, so a smooth body meets
+/// all others without friction.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Roughness {
+    /// Coefficient μ of Coulomb's friction, ≥ 0.
+    pub friction: f64,
+    /// Share of the load that slows a rolling body, ≥ 0.
+    pub rolling: f64,
+    /// What part of the slip of an impact without sliding comes back, 0 to 1: the coefficient β₀ of Walton's law.
+    pub tangential: f64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]

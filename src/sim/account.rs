@@ -41,6 +41,23 @@ impl VectorSum {
     }
 }
 
+/// Running totals of angular momentum about the origin, where bodies spin.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct AngularAccount {
+    pub at_start: DVec3,
+    /// Σ m|x||v| + I|ω| at the start, kg·m²/s.
+    pub scale: f64,
+    /// Given by static bodies in impacts, and by edits.
+    pub impulses: VectorSum,
+    /// ∫x×F dt over segments that have ended, with the torques of contact.
+    pub torque_impulse: VectorSum,
+}
+
+/// The angular momentum that an impulse at a point brings.
+pub(super) fn angular(at: DVec3, impulse: DVec3) -> DVec3 {
+    at.cross(impulse)
+}
+
 /// Running totals since the start.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Account {
@@ -61,4 +78,5 @@ pub(super) struct Account {
     pub impulses: VectorSum,
     /// ∫F dt over segments that have ended, contact forces included.
     pub force_impulse: VectorSum,
+    pub angular: AngularAccount,
 }

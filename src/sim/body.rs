@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use super::event::BodyRef;
 use super::segment::Segment;
 use super::shape::Shape;
+use crate::scene::{Roughness, rotation_matrix};
 
 /// A body of a run. Dynamic ones are numbered from 0, which is their place in all columns of the state; static
 /// ones carry the highest bit, so that of two bodies the dynamic one comes first. A number never changes, whoever
@@ -81,15 +82,25 @@ pub(super) struct Body {
     mass: f64,
     pub bounce: f64,
     pub shape: Shape,
-    /// Apart, since most have none.
-    material: Option<Box<Box<str>>>,
+    /// Apart, since most have nothing of it.
+    rare: Option<Box<Rare>>,
     /// False once it is removed: the numbers of the others stay.
     pub present: bool,
 }
 
+/// What few bodies have.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Rare {
+    pub material: Option<Box<str>>,
+    pub roughness: Roughness,
+    /// Euler angles and angular velocity at the start, rad and rad/s.
+    pub rotation: DVec3,
+    pub spin: DVec3,
+}
+
 impl Body {
     /// `mass` in kg; infinite for a static body.
-    pub fn new(identity: Identity, mass: f64, bounce: f64, shape: Shape, material: Option<&str>) -> Self {
+    pub fn new(identity: Identity, mass: f64, bounce: f64, shape: Shape, rare: Rare) -> Self {
         Self {
             id: identity.id,
             order: identity.order,
@@ -97,7 +108,7 @@ impl Body {
             mass,
             bounce,
             shape,
-            material: material.map(|material| Box::new(material.into())),
+            rare: (rare != Rare::default()).then(|| Box::new(rare)),
             present: true,
         }
     }
@@ -112,7 +123,21 @@ impl Body {
     }
 
     pub fn material(&self) -> Option<&str> {
-        self.material.as_ref().map(|material| &***material)
+        self.rare.as_ref()?.material.as_deref()
+    }
+
+    pub fn roughness(&self) -> Roughness {
+        self.rare.as_ref().map_or(Roughness::default(), |rare| rare.roughness)
+    }
+
+    pub fn set_roughness(&mut self, roughness: Roughness) {
+        self.rare.get_or_insert_default().roughness = roughness;
+    }
+
+    /// World from body, and angular velocity, rad/s, at the start.
+    pub fn turn_at_start(&self) -> (DQuat, DVec3) {
+        let Some(rare) = &self.rare else { return (DQuat::IDENTITY, DVec3::ZERO) };
+        (DQuat::from_mat3(&rotation_matrix(rare.rotation)).normalize(), rare.spin)
     }
 
     /// kg; infinite for a static body.

@@ -2,21 +2,25 @@
 
 use glam::DVec3;
 
-use super::account::{Account, Sum, VectorSum};
+use super::account::{Account, AngularAccount, Sum, VectorSum, angular};
 use super::force::{ForceEntry, Law, Subject};
 use super::model::Model;
 use super::motion::integrate;
 use super::place::Place;
-use super::report::{Energy, Momentum};
+use super::report::{AngularMomentum, BodyState, Energy, Momentum};
+use super::rub::inertia;
 use super::state::State;
+use super::turn::Rubbing;
 
 /// Kinetic and potential energy now, J.
 pub(super) fn energies(model: &Model, state: &State, time: f64) -> (f64, Option<f64>) {
     let mut kinetic = Sum::default();
     let mut potential = Some(Sum::default());
     for body in model.present() {
-        let mass = model.mass(body);
-        kinetic.add(0.5 * mass * state.velocity(body, time).length_squared());
+        kinetic.add(0.5 * model.mass(body) * state.velocity(body, time).length_squared());
+        if model.plan.spin {
+            kinetic.add(kinetic_of_spin(model, state, body, time));
+        }
         for force in &model.forces {
             match (&mut potential, force.law.potential(&subject(model, state, body, time))) {
                 (Some(sum), Some(value)) => sum.add(value),
@@ -25,6 +29,17 @@ pub(super) fn energies(model: &Model, state: &State, time: f64) -> (f64, Option<
         }
     }
     (kinetic.value(), potential.map(|sum| sum.value()))
+}
+
+/// Kinetic energy of a body in a state, J.
+pub(super) fn kinetic_in(model: &Model, body: u32, state: &BodyState) -> f64 {
+    let of_centre = 0.5 * model.mass(body) * state.velocity.length_squared();
+    let of_spin = state.turn.map(|turn| 0.5 * inertia(model, body) * turn.spin.length_squared());
+    of_spin.map_or(of_centre, |of_spin| of_centre + of_spin)
+}
+
+fn kinetic_of_spin(model: &Model, state: &State, body: u32, time: f64) -> f64 {
+    0.5 * inertia(model, body) * state.spin(body, time).length_squared()
 }
 
 pub(super) fn momentum_value(model: &Model, state: &State, time: f64) -> (DVec3, f64) {
@@ -38,15 +53,40 @@ pub(super) fn momentum_value(model: &Model, state: &State, time: f64) -> (DVec3,
     (sum.value(), scale.value())
 }
 
+/// Angular momentum about the origin of the map, and Σ m|x||v| + I|ω|; nothing where nothing rubs.
+pub(super) fn angular_value(model: &Model, state: &State, time: f64) -> (DVec3, f64) {
+    let mut sum = VectorSum::default();
+    let mut scale = Sum::default();
+    if !model.plan.spin {
+        return (DVec3::ZERO, 0.0);
+    }
+    for body in model.present() {
+        let (orbit, spin) = angular_of(model, state, body, time);
+        sum.add(orbit);
+        sum.add(spin);
+        let way = model.mass(body) * state.velocity(body, time).length();
+        scale.add(state.position(body, time).length() * way + spin.length());
+    }
+    (sum.value(), scale.value())
+}
+
+/// m x×v and I ω of a body.
+fn angular_of(model: &Model, state: &State, body: u32, time: f64) -> (DVec3, DVec3) {
+    let orbit = angular(state.position(body, time), model.mass(body) * state.velocity(body, time));
+    (orbit, inertia(model, body) * state.spin(body, time))
+}
+
 /// Opens the books at the present state.
 pub(super) fn open(model: &Model, state: &mut State) {
     let (kinetic, potential) = energies(model, state, state.now);
     let (momentum, scale) = momentum_value(model, state, state.now);
+    let (at_start, angular_scale) = angular_value(model, state, state.now);
     state.account = Account {
         energy_at_start: kinetic + potential.unwrap_or(0.0),
         kinetic_at_start: kinetic,
         momentum_at_start: momentum,
         momentum_scale: scale,
+        angular: AngularAccount { at_start, scale: angular_scale, ..AngularAccount::default() },
         ..Account::default()
     };
 }
@@ -58,6 +98,10 @@ pub(super) fn book_segment(model: &Model, state: &mut State, body: u32, time: f6
     state.account.unknown_work |= has_unknown_work(model, state, body, time);
     state.account.dissipated.add(dissipated);
     state.account.force_impulse.add(impulse);
+    if model.plan.spin {
+        let torque = torque_impulse(model, state, body, time);
+        state.account.angular.torque_impulse.add(torque);
+    }
 }
 
 fn has_unknown_work(model: &Model, state: &State, body: u32, time: f64) -> bool {
@@ -115,6 +159,22 @@ pub(super) fn momentum(model: &Model, state: &State) -> Momentum {
     Momentum { value, residual: relative(sum.value().length(), scale) }
 }
 
+pub(super) fn angular_momentum(model: &Model, state: &State) -> AngularMomentum {
+    let (value, scale) = angular_value(model, state, state.now);
+    let account = &state.account.angular;
+    let mut sum = VectorSum::default();
+    sum.add(value);
+    sum.add(-account.at_start);
+    sum.add(-account.impulses.value());
+    sum.add(-account.torque_impulse.value());
+    for body in model.present() {
+        sum.add(-torque_impulse(model, state, body, state.now));
+    }
+    let turned_over = account.impulses.value().length().max(account.torque_impulse.value().length());
+    let scale = scale.max(account.scale).max(turned_over);
+    AngularMomentum { value, residual: relative(sum.value().length(), scale) }
+}
+
 /// Zero over zero is no drift.
 fn relative(difference: f64, scale: f64) -> f64 {
     if difference == 0.0 { 0.0 } else { difference / scale.max(f64::MIN_POSITIVE) }
@@ -124,15 +184,54 @@ pub(super) fn subject<'a>(model: &'a Model, state: &State, body: u32, time: f64)
     model.subject(body, time, state.path(body).place(time), state.velocity(body, time))
 }
 
-/// −∫ F·v dt of the drag forces along the body's segment up to `time`, J.
+/// −∫ F·v dt of the drag forces along the body's segment up to `time`, and what friction took, J.
 fn dissipated(model: &Model, state: &State, body: u32, time: f64) -> f64 {
+    let rubbed = if model.plan.spin { rubbed(state, body, time) } else { 0.0 };
     if !model.forces.iter().any(|force| force.law.dissipates()) {
+        return rubbed;
+    }
+    rubbed
+        + integrate(state.segments[body as usize].start, time, 0.0, |at| {
+            let subject = subject(model, state, body, at);
+            let drags = model.forces.iter().filter(|force| force.law.dissipates());
+            -drags.map(|force| force.law.force(&subject).dot(subject.velocity)).sum::<f64>()
+        })
+}
+
+/// ∫ μN|s| + M|v| dt of the friction of a body on a face, J.
+fn rubbed(state: &State, body: u32, time: f64) -> f64 {
+    let turn = &state.turns[body as usize];
+    let Rubbing { slide, roll, arm } = turn.rubbing;
+    if slide == 0.0 && roll == 0.0 {
         return 0.0;
     }
-    integrate(state.segments[body as usize].start, time, 0.0, |at| {
-        let subject = subject(model, state, body, at);
-        let drags = model.forces.iter().filter(|force| force.law.dissipates());
-        -drags.map(|force| force.law.force(&subject).dot(subject.velocity)).sum::<f64>()
+    let path = state.path(body);
+    integrate(turn.start, time, 0.0, |at| {
+        let v = path.velocity(at);
+        let slip = v - turn.spin_at(at).cross(arm);
+        slide * slip.length() + roll * v.length()
+    })
+}
+
+/// ∫ x×F dt of the forces on a body along its segment up to `time`, in contact what the motion makes of it.
+fn torque_impulse(model: &Model, state: &State, body: u32, time: f64) -> DVec3 {
+    let segment = &state.segments[body as usize];
+    if segment.constrained {
+        let turn = &state.turns[body as usize];
+        let inertia = inertia(model, body);
+        let before = angular(segment.x, model.mass(body) * segment.v) + inertia * turn.spin;
+        let path = state.path(body);
+        let now = angular(path.position(time), model.mass(body) * path.velocity(time));
+        return now + inertia * turn.spin_at(time) - before;
+    }
+    let path = state.path(body);
+    if segment.step == 0.0 && model.is_ballistic() {
+        let tau = time - segment.start;
+        let middle = segment.x + 0.5 * tau * segment.v;
+        return angular(middle, model.mass(body) * tau * segment.a);
+    }
+    integrate(segment.start, time, DVec3::ZERO, |at| {
+        angular(path.position(at), model.applied_force(&subject(model, state, body, at)))
     })
 }
 

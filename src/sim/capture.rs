@@ -5,12 +5,14 @@
 
 use glam::DVec3;
 
+use super::account::angular;
 use super::body::BodyId;
 use super::event::{Event, EventKind};
 use super::force::Law;
 use super::ledger::record;
 use super::model::Model;
 use super::place::Place;
+use super::rub::inertia;
 use super::state::State;
 use super::tolerance::{BOUND_ALONE, BOUND_DISTURBED, BOUND_OF_RADIUS, PASSED, SWALLOWED};
 
@@ -109,6 +111,12 @@ pub(super) fn hold(model: &Model, state: &mut State, body: u32, time: f64) {
     let (x, v) = (state.position(body, time), state.velocity(body, time));
     state.account.impact_losses.add(energy_above(model, state, body, time, x));
     state.account.impulses.add(-model.mass(body) * v);
+    if model.plan.spin {
+        let (inertia, spin) = (inertia(model, body), state.spin(body, time));
+        state.account.impact_losses.add(0.5 * inertia * spin.length_squared());
+        state.account.angular.impulses.add(angular(x, -model.mass(body) * v) - inertia * spin);
+        state.give_spin(body, DVec3::ZERO);
+    }
     record(state, Event::of_one(time, EventKind::Captured, BodyId::of_dynamic(body).to_ref(), x));
     state.plunges.remove(&body);
     state.captured.insert(body);

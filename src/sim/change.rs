@@ -6,8 +6,8 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::body::BodyId;
-use super::books::{book_segment, energies, momentum_value};
-use super::compile::{check_force, compile_body};
+use super::books::{angular_value, book_segment, energies, momentum_value};
+use super::compile::{check_force, check_roughness, compile_body};
 use super::dense::step_length;
 use super::drive::begin_all;
 use super::edit::{EditRefused, SimEdit};
@@ -21,7 +21,7 @@ use super::plan::plan_of;
 use super::segment::Segment;
 use super::state::State;
 use super::tiles::StaticTiles;
-use crate::scene::{Body, NodeKey};
+use crate::scene::{Body, NodeKey, Roughness};
 
 /// Applies an edit at `state.now`. Refused, it may leave both half changed: give it copies.
 pub(super) fn apply(model: &mut Model, state: &mut State, edit: &SimEdit) -> Result<(), EditRefused> {
@@ -46,6 +46,7 @@ pub(super) fn apply(model: &mut Model, state: &mut State, edit: &SimEdit) -> Res
             None
         }
         SimEdit::Bounce(key, bounce) => Some(set_bounce(model, *key, *bounce)?),
+        SimEdit::Roughness(key, roughness) => Some(set_roughness(model, *key, roughness)?),
         SimEdit::Mass(key, mass) => Some(set_mass(model, *key, *mass)?),
         SimEdit::ChangeStatic(body) => Some(change_static(model, state, body)?),
     };
@@ -81,8 +82,11 @@ pub(super) fn remove_custom(
 }
 
 /// What the changed scene needs.
-fn plan_anew(model: &mut Model, state: &State) {
+fn plan_anew(model: &mut Model, state: &mut State) {
     model.plan = plan_of(model);
+    // What turns goes on turning, also where nothing rubs any more.
+    model.plan.spin |= !state.turns.is_empty();
+    state.make_turns(model);
     if model.plan.stepped_groups || state.dense.is_some() {
         let at = |body| (state.position(body, state.now), state.velocity(body, state.now));
         model.dense_step = step_length(model, at);
@@ -94,6 +98,7 @@ fn plan_anew(model: &mut Model, state: &State) {
 struct Books {
     energy: f64,
     momentum: DVec3,
+    angular: DVec3,
 }
 
 impl Books {
@@ -104,13 +109,18 @@ impl Books {
             cut(state, body, time);
         }
         let (kinetic, potential) = energies(model, state, time);
-        Self { energy: kinetic + potential.unwrap_or(0.0), momentum: momentum_value(model, state, time).0 }
+        Self {
+            energy: kinetic + potential.unwrap_or(0.0),
+            momentum: momentum_value(model, state, time).0,
+            angular: angular_value(model, state, time).0,
+        }
     }
 }
 
 /// Shortens a body's past: its segment starts now, as a point. A new one is begun at once.
 fn cut(state: &mut State, body: u32, time: f64) {
     let (x, v) = (state.position(body, time), state.velocity(body, time));
+    state.turn_freely(body, time);
     state.segments[body as usize] = Segment::ballistic(time, x, v, DVec3::ZERO);
 }
 
@@ -126,6 +136,7 @@ fn restart_all(
     state.account.edit_work.add(kinetic + potential.unwrap_or(0.0) - before.energy);
     let momentum = momentum_value(model, state, time).0;
     state.account.impulses.add(momentum - before.momentum);
+    state.account.angular.impulses.add(angular_value(model, state, time).0 - before.angular);
     let place = changed.map_or(DVec3::ZERO, |body| state.path_of(model, body).segment.x);
     let subject = changed.map_or(BodyRef::NONE, BodyId::to_ref);
     record(state, Event::of_one(time, EventKind::Edit, subject, place));
@@ -199,6 +210,13 @@ fn set_bounce(model: &mut Model, key: NodeKey, bounce: f64) -> Result<BodyId, Ed
     }
     let body = find(model, key).ok_or_else(|| EditRefused("that body is not in the run".into()))?;
     model.bodies.get_mut(body).bounce = bounce;
+    Ok(body)
+}
+
+fn set_roughness(model: &mut Model, key: NodeKey, roughness: &Roughness) -> Result<BodyId, EditRefused> {
+    check_roughness(roughness).map_err(|hint| EditRefused(hint.into()))?;
+    let body = find(model, key).ok_or_else(|| EditRefused("that body is not in the run".into()))?;
+    model.bodies.get_mut(body).set_roughness(*roughness);
     Ok(body)
 }
 

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::account::angular;
 use super::body::BodyId;
 use super::capture::{Attractor, hold};
 use super::event::{Event, EventKind};
@@ -39,6 +40,9 @@ pub(super) fn pass_core(model: &Model, state: &mut State, next: &Predicted) -> R
     }
     let turned = if turn_back(model, state, body, time) { -v } else { v - 2.0 * speed * inward };
     state.account.impulses.add(model.mass(body) * (turned - v));
+    if model.plan.spin {
+        state.account.angular.impulses.add(angular(x, model.mass(body) * (turned - v)));
+    }
     record(state, Event::of_one(time, EventKind::SingularPass, BodyId::of_dynamic(body).to_ref(), x));
     restart(model, state, time, &[Start { body, x, v: turned }])
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
 
-use super::body::{Bodies, Body, Identity, Origin};
+use super::body::{Bodies, Body, Identity, Origin, Rare};
 use super::dense::step_length;
 use super::force::{ForceEntry, Law};
 use super::method::Method;
@@ -13,7 +13,9 @@ use super::plan::plan_of;
 use super::report::Plan;
 use super::shape::{self, Plate, Sphere};
 use super::tiles::{Grid, StaticTiles, coarse_enough};
-use crate::scene::{self, Diagnostic, Force, ForceKind, Motion, Scene, Severity, Shape, rotation_matrix};
+use crate::scene::{
+    self, Diagnostic, Force, ForceKind, Motion, Roughness, Scene, Severity, Shape, rotation_matrix,
+};
 
 /// The model, and where its dynamic bodies start (same order).
 pub(super) fn compile(scene: &Scene, method: Method) -> Result<(Model, Vec<Origin>), Vec<Diagnostic>> {
@@ -80,7 +82,14 @@ pub(super) fn compile_body(body: &scene::Body, order: u32) -> Result<(Body, Orig
     let label: Arc<str> = Arc::from(body.label.as_str());
     let name = if body.display_name() == body.label { label.clone() } else { Arc::from(body.display_name()) };
     let identity = Identity { key: body.key, id: body.id, label, name, order };
-    let compiled = Body::new(identity, mass, body.bounce, shape, body.material.as_deref());
+    let rare = Rare {
+        material: body.material.as_deref().map(Box::from),
+        roughness: body.roughness,
+        // How a plate is turned is its shape's.
+        rotation: if body.is_dynamic() { body.rotation } else { DVec3::ZERO },
+        spin: if body.is_dynamic() { body.spin } else { DVec3::ZERO },
+    };
+    let compiled = Body::new(identity, mass, body.bounce, shape, rare);
     Ok((compiled, Origin { position: body.position, velocity }))
 }
 
@@ -118,6 +127,10 @@ fn check_numbers(body: &scene::Body) -> Result<(), Diagnostic> {
     if !(body.bounce.is_finite() && body.bounce >= 0.0) {
         return wrong("its Bounce", "give a number of 0 or more");
     }
+    check_roughness(&body.roughness).or_else(|hint| wrong("its friction", hint))?;
+    if !body.spin.is_finite() {
+        return wrong("its angular velocity", "give finite numbers");
+    }
     if let Motion::Dynamic { mass, velocity } = body.motion
         && !(mass.is_finite() && mass > 0.0 && velocity.is_finite())
     {
@@ -132,6 +145,17 @@ fn check_numbers(body: &scene::Body) -> Result<(), Diagnostic> {
         Ok(())
     } else {
         wrong("its size", "give sizes above 0 m")
+    }
+}
+
+/// What is wrong with friction that no reader has seen.
+pub(super) fn check_roughness(roughness: &Roughness) -> Result<(), &'static str> {
+    let Roughness { friction, rolling, tangential } = *roughness;
+    let is_sound = |value: f64| value.is_finite() && value >= 0.0;
+    if is_sound(friction) && is_sound(rolling) && (0.0..=1.0).contains(&tangential) {
+        Ok(())
+    } else {
+        Err("give friction of 0 or more, and a tangential restitution between 0 and 1")
     }
 }
 

@@ -1,6 +1,6 @@
 //! Changes to a running simulation. Each applies at the model time at which it is given.
 
-use crate::scene::{Body, Force, NodeKey};
+use crate::scene::{Body, Force, NodeKey, Roughness};
 
 /// One change. Bodies and forces are named by their document key.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,6 +11,7 @@ pub enum SimEdit {
     /// Replaces a force by another of the same key.
     ChangeForce(Box<Force>),
     Bounce(NodeKey, f64),
+    Roughness(NodeKey, Roughness),
     /// kg; the velocity stays.
     Mass(NodeKey, f64),
     /// Moves or reshapes a static body.

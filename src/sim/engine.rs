@@ -15,8 +15,10 @@ use super::pair::Pair;
 use super::predict::{Gap, touch_tolerance};
 use super::queue::{Kind, Predicted};
 use super::restart::{Start, restart};
+use super::rolling::kind_of;
 use super::state::State;
 use super::tolerance::{FOUND, TIME_ROUNDING};
+use super::turn::Hold;
 
 /// Carries out the next predicted event that is not after `state.until`; false when there is none.
 /// What it has to report is left in the outbox.
@@ -176,6 +178,13 @@ fn settled(model: &Model, state: &mut State, next: &Predicted) {
     }
     if was_due {
         record_contact(model, state, time, EventKind::Rest, pair);
+        let hold = state.hold(pair.first());
+        if hold != Hold::Free {
+            if hold != Hold::Rests {
+                record_contact(model, state, time, kind_of(hold), pair);
+            }
+            return;
+        }
         let speed = state.path_of(model, pair.b).velocity(time);
         if state.velocity(pair.first(), time) != speed {
             record_contact(model, state, time, EventKind::Slide, pair);

@@ -41,10 +41,12 @@ pub enum EventKind {
     Dense,
     /// Stepped bodies came to rest together.
     GroupRest,
+    /// A body in contact goes on without slip.
+    Roll,
 }
 
 impl EventKind {
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Impact,
         Self::Rest,
         Self::Slide,
@@ -55,10 +57,11 @@ impl EventKind {
         Self::Edit,
         Self::Dense,
         Self::GroupRest,
+        Self::Roll,
     ];
 
     /// The name used in files: `impact`, `rest`, `slide`, `lift_off`, `singular_pass`, `captured`,
-    /// `collapse`, `edit`, `dense`, `group_rest`.
+    /// `collapse`, `edit`, `dense`, `group_rest`, `roll`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Impact => "impact",
@@ -71,6 +74,7 @@ impl EventKind {
             Self::Edit => "edit",
             Self::Dense => "dense",
             Self::GroupRest => "group_rest",
+            Self::Roll => "roll",
         }
     }
 
@@ -87,6 +91,7 @@ impl EventKind {
             Self::Edit => "the scene was edited while it ran",
             Self::Dense => "bodies that touch too often for events are stepped together from now on",
             Self::GroupRest => "bodies that were stepped together came to rest",
+            Self::Roll => "a body in contact went on without slip",
         }
     }
 }

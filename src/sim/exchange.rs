@@ -62,7 +62,7 @@ fn mass(model: &Model, state: &State, body: BodyId) -> f64 {
 
 /// Momentum that an impulse from the first body to the second brings into the system, N·s: what is fixed takes up
 /// its share of it.
-fn impulse_from_outside(state: &State, pair: Pair, impulse: DVec3) -> DVec3 {
+pub(super) fn impulse_from_outside(state: &State, pair: Pair, impulse: DVec3) -> DVec3 {
     let kept = |body: BodyId| if state.is_fixed(body) { DVec3::ZERO } else { impulse };
     kept(pair.b) - kept(pair.a)
 }

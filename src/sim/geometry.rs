@@ -11,6 +11,7 @@ use super::restitution::{of_pair, sticking};
 use super::shape::{Part, Surface, direction};
 use super::state::State;
 use super::tolerance::TOUCHES;
+use crate::scene::Roughness;
 
 /// A dynamic body as prediction sees it.
 pub(super) fn ball<'a>(model: &Model, state: &'a State, body: u32) -> Ball<'a> {
@@ -52,6 +53,22 @@ pub(super) fn gap_of(model: &Model, state: &State, pair: Pair, time: f64) -> Gap
 /// Product of the two Bounce values.
 pub(super) fn restitution_of(model: &Model, pair: Pair) -> f64 {
     of_pair(model.body(pair.a).bounce, model.body(pair.b).bounce)
+}
+
+/// What a pair has of friction: the geometric mean of both.
+pub(super) fn rubbing_of(model: &Model, pair: Pair) -> Roughness {
+    let (a, b) = (model.body(pair.a).roughness(), model.body(pair.b).roughness());
+    let mean = |a: f64, b: f64| (a * b).sqrt();
+    Roughness {
+        friction: mean(a.friction, b.friction),
+        rolling: mean(a.rolling, b.rolling),
+        tangential: mean(a.tangential, b.tangential),
+    }
+}
+
+/// Radii of both bodies of a pair as far as they turn, m: what is fixed does not.
+pub(super) fn normal_arms(model: &Model, pair: Pair) -> [f64; 2] {
+    [model.radius(pair.first()), pair.second().map_or(0.0, |other| model.radius(other))]
 }
 
 /// The same at a closing speed, m/s.

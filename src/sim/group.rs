@@ -44,6 +44,8 @@ pub(super) struct Group {
     pub fastest: f64,
     /// Energy taken by the law of each round, J: not what the velocities say, so that the books can tell.
     pub loss: f64,
+    /// Angular velocities, rad/s; none where nothing rubs.
+    pub spins: Vec<DVec3>,
 }
 
 /// One contact of a group.
@@ -59,6 +61,8 @@ pub(super) struct Member {
     pub before: f64,
     /// N·s.
     pub impulse: f64,
+    /// Impulse of friction on the second body, N·s.
+    pub rubbed: DVec3,
 }
 
 impl Group {
@@ -92,7 +96,7 @@ impl Group {
         let bodies = Island::at(model, state, ids, time);
         let members = pairs.into_iter().map(|pair| member(model, state, &bodies, pair, time)).collect();
         let fastest = bodies.v.iter().map(|v| v.length()).fold(0.0, f64::max);
-        Self { bodies, members, time, fastest, loss: 0.0 }
+        Self { bodies, members, time, fastest, loss: 0.0, spins: Vec::new() }
     }
 
     /// The contacts as bounds on accelerations at the present velocities.
@@ -242,7 +246,7 @@ impl Group {
     }
 
     /// Takes all that closes, plastically.
-    fn take_up(&mut self) {
+    pub fn take_up(&mut self) {
         let none_lasts = vec![false; self.members.len()];
         let levelled = self.levelled(&none_lasts);
         self.bring_to(levelled);
@@ -344,5 +348,6 @@ fn member(model: &Model, state: &State, bodies: &Island, pair: Pair, time: f64) 
         link,
         before,
         impulse: 0.0,
+        rubbed: DVec3::ZERO,
     }
 }

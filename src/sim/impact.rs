@@ -3,6 +3,7 @@
 
 use glam::DVec3;
 
+use super::account::angular;
 use super::capture::free_if_struck;
 use super::contact::Contact;
 use super::dense::{
@@ -11,7 +12,7 @@ use super::dense::{
 use super::event::{Event, EventKind};
 use super::exchange::{exchange, velocity_change};
 use super::fault::Fault;
-use super::geometry::{gap_of, restitution_at, smaller_radius};
+use super::geometry::{gap_of, restitution_at, rubbing_of, smaller_radius};
 use super::group::{Group, Member, hit_just_now};
 use super::island::part;
 use super::ledger::{contact_event, in_id_order, rank, record, record_contact};
@@ -22,9 +23,10 @@ use super::pair::Pair;
 use super::predict::{Gap, touch_tolerance};
 use super::restart::{Start, restart};
 use super::restitution::{Blow, blow, reduced_mass};
+use super::rub::rub_pair;
 use super::settle::{Settling, settle};
 use super::state::State;
-use super::tolerance::{FALLING, MEMORY, NEAR_REST};
+use super::tolerance::{FALLING, MEMORY, NEAR_REST, NO_CHANGE};
 
 /// Two bodies touch while closing. `also` are impacts of the same instant, of which those connected with it
 /// are resolved too and taken out.
@@ -65,6 +67,9 @@ pub(super) fn resolve(
         note_work(model, state, &group.bodies.ids, time);
     }
     let kind = if collapse(model, state, &mut group) { EventKind::Collapse } else { EventKind::Impact };
+    if model.plan.spin && !group.rub(model, state) && state.dense.is_some() {
+        return enter(model, state, &group.bodies.ids, time);
+    }
     list(model, state, time, &group, kind);
     finish(model, state, time, group)
 }
@@ -159,13 +164,16 @@ fn bounce(model: &Model, state: &mut State, time: f64, pair: Pair, gap: &Gap) ->
         x: state.position(body, time),
         v: state.velocity(body, time) + velocity_change(model, state, body, impulse, gap.normal),
     };
-    let first = start(pair.first(), -impulse);
-    match pair.second() {
+    let mut first = start(pair.first(), -impulse);
+    let mut second = pair.second().map(|second| start(second, impulse));
+    if model.plan.spin {
+        let rubbed = rub_pair(model, state, time, pair, gap, impulse);
+        first.v -= rubbed * state.inverse_mass(model, first.body);
+        second.iter_mut().for_each(|second| second.v += rubbed * state.inverse_mass(model, second.body));
+    }
+    match second {
         None => restart(model, state, time, &[first]),
-        Some(second) => {
-            let second = start(second, impulse);
-            restart(model, state, time, &[first, second])
-        }
+        Some(second) => restart(model, state, time, &[first, second]),
     }
 }
 
@@ -206,7 +214,11 @@ fn finish(model: &Model, state: &mut State, time: f64, mut group: Group) -> Resu
     let settling = settle(model, &mut group);
     group.forget_rounding(&before);
     book(state, &group, &before);
-    let changed = changed(&group, &before, &settling);
+    let mut changed = changed(&group, &before, &settling);
+    if model.plan.spin {
+        book_torques(state, &group);
+        give_spins(model, state, &group, &mut changed);
+    }
     keep_contacts(model, state, &group, &settling);
     report_slides(model, state, time, &group, &before);
     restart(model, state, time, &starts_of(&group, &changed))?;
@@ -231,13 +243,42 @@ fn book(state: &mut State, group: &Group, before: &[DVec3]) {
     state.account.impact_losses.add(group.loss);
 }
 
+/// Angular momentum that bodies which stay gave or took.
+fn book_torques(state: &mut State, group: &Group) {
+    let is_fixed = |body: Option<usize>| body.is_none_or(|body| group.bodies.inverse_mass[body] == 0.0);
+    for member in &group.members {
+        let impulse = member.impulse * member.link.towards + member.rubbed;
+        let mut kept = DVec3::ZERO;
+        if is_fixed(member.link.b) {
+            kept -= impulse;
+        }
+        if is_fixed(Some(member.link.a)) {
+            kept += impulse;
+        }
+        state.account.angular.impulses.add(angular(member.gap.point, kept));
+    }
+}
+
+/// Gives bodies the spins that friction left them; they go on anew.
+fn give_spins(model: &Model, state: &mut State, group: &Group, changed: &mut [bool]) {
+    let rounding = NO_CHANGE * group.fastest;
+    for ((body, spin), changed) in group.bodies.ids.iter().zip(&group.spins).zip(changed) {
+        let before = state.spin(*body, group.time);
+        if model.radius(*body) * (*spin - before).length() > rounding {
+            state.give_spin(*body, *spin);
+            *changed = true;
+        }
+    }
+}
+
 /// Reports the lasting contacts whose bodies lay still against each other and do no longer.
 fn report_slides(model: &Model, state: &mut State, time: f64, group: &Group, before: &[DVec3]) {
     let slips = |velocities: &[DVec3], link: &Link| {
         velocities[link.a] != link.b.map_or(DVec3::ZERO, |b| velocities[b])
     };
     for member in group.members.iter().filter(|member| member.is_lasting) {
-        let lasts = state.contact(member.pair).is_some();
+        // Where bodies rub, how they go on says it.
+        let lasts = state.contact(member.pair).is_some() && rubbing_of(model, member.pair).friction == 0.0;
         if lasts && !slips(before, &member.link) && slips(&group.bodies.v, &member.link) {
             record_contact(model, state, time, EventKind::Slide, member.pair);
         }

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 
 use glam::DVec3;
 
+use super::account::angular;
 use super::constraint::{enter_none, enter_none_from, stay_on, stay_on_from};
 use super::event::EventKind;
 use super::force::{ForceEntry, Law};
@@ -186,12 +187,7 @@ pub(super) fn begin_island(
     island: &mut Island,
     time: f64,
 ) -> Result<(), (u32, SegmentError)> {
-    let at_rest: Vec<Link> =
-        island.links(model).into_iter().map(|link| Link { limit: 0.0, ..link }).collect();
-    // Takes the rounding out of velocities: contacts that the bodies leave or enter have been dropped.
-    let before = island.v.clone();
-    stay_on(&at_rest, &island.inverse_mass, &mut island.v);
-    book(state, island, &before);
+    level(model, state, island);
     let links = island.links(model);
     let mut accelerations = island.free(model, time);
     let solved = enter_none(&links, &island.inverse_mass, &mut accelerations);
@@ -218,6 +214,15 @@ pub(super) fn begin_island(
         place(model, state, *body, segment, column);
     }
     Ok(())
+}
+
+/// Takes the rounding out of velocities: contacts that the bodies leave or enter have been dropped.
+pub(super) fn level(model: &Model, state: &mut State, island: &mut Island) {
+    let at_rest: Vec<Link> =
+        island.links(model).into_iter().map(|link| Link { limit: 0.0, ..link }).collect();
+    let before = island.v.clone();
+    stay_on(&at_rest, &island.inverse_mass, &mut island.v);
+    book(state, island, &before);
 }
 
 /// The edge or corner that each contact of an island lies on, in their order, where it is one of several of its shape.
@@ -279,10 +284,11 @@ fn part_ends(model: &Model, island: &Island, parts: &[Option<Part>], steps: &[St
 
 /// Books what the surfaces took of velocities that pointed into them or away.
 fn book(state: &mut State, island: &Island, before: &[DVec3]) {
-    for ((old, new), inverse_mass) in before.iter().zip(&island.v).zip(&island.inverse_mass) {
+    for (row, (old, new)) in before.iter().zip(&island.v).enumerate() {
         if old != new {
-            let way = *new - *old;
+            let (way, inverse_mass) = (*new - *old, &island.inverse_mass[row]);
             state.account.impulses.add(way / *inverse_mass);
+            state.account.angular.impulses.add(angular(island.x[row], way / *inverse_mass));
             state.account.impact_losses.add(-0.5 * way.dot(*new + *old) / *inverse_mass);
         }
     }

@@ -29,6 +29,7 @@ mod engine;
 mod exchange;
 mod geometry;
 mod group;
+mod group_friction;
 mod impact;
 mod island;
 mod ledger;
@@ -40,7 +41,9 @@ mod neighbours;
 mod predict;
 mod restart;
 mod restitution;
+mod rolling;
 mod roots;
+mod rub;
 mod search;
 mod settle;
 mod stepping;
@@ -57,6 +60,7 @@ mod queue;
 mod segment;
 mod state;
 mod trace;
+mod turn;
 mod way_in;
 
 // What looks on.
@@ -72,7 +76,8 @@ pub use fault::Fault;
 pub use force::{Force, Subject};
 pub use method::Method;
 pub use report::{
-    BodyState, ContactForce, ContactState, Counters, Energy, Momentum, Plan, SteppedBodies, Tiling,
+    AngularMomentum, BodyState, ContactForce, ContactState, Counters, Energy, Momentum, Plan, Rotation,
+    SteppedBodies, Tiling,
 };
 pub use simulation::{CompileError, Progress, Simulation, Snapshot};
 pub use stepping::StepLimits;

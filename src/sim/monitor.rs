@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::body::{BodyId, Identity};
 use super::geometry::{contact_distance, gap_of};
+use super::method::Method;
 use super::model::Model;
 use super::pair::Pair;
 use super::report::Tiling;
@@ -25,6 +26,7 @@ pub(super) fn worst_overlap(model: &Model, state: &State, time: f64) -> f64 {
 pub(super) fn start_warnings(model: &Model, state: &State) -> Result<Vec<Diagnostic>, Diagnostic> {
     let mut warnings = overlap_warnings(model, state)?;
     warnings.extend(outside_warnings(model, state));
+    warnings.extend(friction_warning(model));
     // What is about no body sums up the others.
     warnings.sort_by_key(|warning| (warning.key.is_none(), warning.key));
     Ok(warnings)
@@ -88,6 +90,17 @@ fn outside_warnings(model: &Model, state: &State) -> Vec<Diagnostic> {
         ));
     }
     warnings
+}
+
+/// A method that leaves friction out says so.
+fn friction_warning(model: &Model) -> Option<Diagnostic> {
+    let is_rough = model.present().any(|body| model.dynamic(body).roughness().friction > 0.0);
+    (is_rough && model.method == Method::Thesis).then(|| {
+        about_all(
+            "the method thesis has no friction: bodies slide as if they were smooth".into(),
+            "use the method exact or fixed",
+        )
+    })
 }
 
 /// Four digits, without an exponent where a person would write none.

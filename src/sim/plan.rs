@@ -13,9 +13,16 @@ pub(super) fn plan_of(model: &Model) -> Plan {
     let statics: Vec<&Body> = present().filter(|body| body.is_static()).collect();
     let dynamic_bodies = present().count() - statics.len();
     let ballistic = model.is_ballistic();
+    let rubs = rubs(model);
+    let spin = rubs && model.method != Method::Thesis;
     let lossy = present().any(|body| body.bounce < 1.0) || model.params.stick_speed > 0.0;
 
-    let mut left_out = vec!["rotation: frictionless spheres keep their spin, whatever it is"];
+    let mut left_out = Vec::new();
+    if !rubs {
+        left_out.push("rotation: frictionless spheres keep their spin, whatever it is");
+    } else if !spin {
+        left_out.push("friction and rotation: this method has none, all bodies slide as if they were smooth");
+    }
     if ballistic {
         left_out.push("field integrator: all forces are uniform, flights are parabolas");
     }
@@ -30,7 +37,9 @@ pub(super) fn plan_of(model: &Model) -> Plan {
     let lasting_contact = lossy && model.method == Method::Exact;
     // Where nothing drives elastic bodies together, they part for good.
     let is_pressed = lossy || !model.forces.is_empty();
-    if dynamic_bodies < 2 {
+    // A lone body may have to be stepped too: one that slides in a groove.
+    let least = if spin { 1 } else { 2 };
+    if dynamic_bodies < least {
         left_out.push("stepped groups: no two moving bodies");
     } else if model.method != Method::Exact {
         left_out.push("stepped groups: this method steps all bodies");
@@ -43,10 +52,19 @@ pub(super) fn plan_of(model: &Model) -> Plan {
         motion: if ballistic { "ballistic" } else { "field" },
         pairs: pairs_of(dynamic_bodies, &statics),
         lasting_contact,
-        stepped_groups: model.method == Method::Exact && dynamic_bodies > 1 && is_pressed,
+        spin,
+        stepped_groups: model.method == Method::Exact && dynamic_bodies >= least && is_pressed,
         group_step: model.dense_step,
         left_out,
     }
+}
+
+/// Whether two bodies rub that may meet, of which one moves.
+fn rubs(model: &Model) -> bool {
+    let present = || model.bodies.iter().map(|(_, body)| body).filter(|body| body.present);
+    let rough = |body: &&Body| body.roughness().friction > 0.0;
+    let moving = present().filter(rough).filter(|body| !body.is_static()).count();
+    moving > 0 && present().filter(rough).count() > 1
 }
 
 /// Which shapes can meet: of static bodies spheres first, then by name.

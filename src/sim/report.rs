@@ -1,8 +1,10 @@
 //! What can be read off a simulation: states, energies, counters, the plan, the tiles.
 
-use glam::DVec3;
+use glam::{DMat3, DQuat, DVec3};
 
 use super::event::BodyRef;
+use crate::design::euler_near;
+use crate::scene::BodyChange;
 
 /// How a dynamic body is moving.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -14,16 +16,19 @@ pub enum ContactState {
     Slide,
     /// Stepped with others that it touches too often for events.
     Stepped,
+    /// In lasting contact and moving along it without slip.
+    Roll,
 }
 
 impl ContactState {
-    /// `flight`, `rest`, `slide` or `stepped`, as files and the window write it.
+    /// `flight`, `rest`, `slide`, `roll` or `stepped`, as files and the window write it.
     pub fn name(self) -> &'static str {
         match self {
             Self::Flight => "flight",
             Self::Rest => "rest",
             Self::Slide => "slide",
             Self::Stepped => "stepped",
+            Self::Roll => "roll",
         }
     }
 
@@ -33,6 +38,7 @@ impl ContactState {
             Self::Flight => "moves freely",
             Self::Rest => "lies still on what it touches",
             Self::Slide => "moves along what it touches",
+            Self::Roll => "rolls on what it touches without slipping",
             Self::Stepped => "touches others too often for single events, and is stepped together with them",
         }
     }
@@ -72,6 +78,25 @@ pub struct BodyState {
     /// m/s², of the motion, so contact forces are included.
     pub acceleration: DVec3,
     pub contact: ContactState,
+    /// `None` where nothing rubs, so that spins stay what they are.
+    pub turn: Option<Rotation>,
+}
+
+/// How a sphere is turned, and turns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rotation {
+    /// Unit quaternion, world from body.
+    pub orientation: DQuat,
+    /// rad/s, in the axes of the map.
+    pub spin: DVec3,
+}
+
+impl Rotation {
+    /// The edits that let a body start like this.
+    pub fn changes(&self) -> [BodyChange; 2] {
+        let angles = euler_near(DMat3::from_quat(self.orientation), DVec3::ZERO);
+        [BodyChange::Rotation(angles), BodyChange::Spin(self.spin)]
+    }
 }
 
 /// Energies in joules.
@@ -97,11 +122,20 @@ pub struct Momentum {
     pub residual: f64,
 }
 
+/// Angular momentum about the map's origin, of centres and of spins, in kg·m²/s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AngularMomentum {
+    pub value: DVec3,
+    /// |L − L₀ − ∫x×F dt − impulses of statics at their contact points| over the largest of Σ m|x||v| + I|ω| at the
+    /// start and now, and what was given.
+    pub residual: f64,
+}
+
 /// What the core has done so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counters {
     /// Ledger rows by kind, in the order of [`super::EventKind::ALL`].
-    pub events: [u64; 10],
+    pub events: [u64; 11],
     /// Pairs whose time of impact was computed.
     pub pair_tests: u64,
     /// Times a body moved to other tiles.
@@ -139,6 +173,8 @@ pub struct Plan {
     pub pairs: Vec<&'static str>,
     /// Whether a body can come to rest.
     pub lasting_contact: bool,
+    /// Whether bodies rub, so that they turn.
+    pub spin: bool,
     /// Whether bodies that touch too often for events may be stepped.
     pub stepped_groups: bool,
     /// Length of their steps, s; 0 where there are none.

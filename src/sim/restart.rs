@@ -10,6 +10,7 @@ use super::island::{Island, begin_island, connected, drop_unpressed, islands};
 use super::model::Model;
 use super::motion::{begin_segment, begin_stay, place};
 use super::neighbours::predict_all;
+use super::rolling::{begin_on_face, lone_face, rubs};
 use super::segment::Segment;
 use super::state::State;
 
@@ -97,9 +98,16 @@ fn begin_islands(model: &Model, state: &mut State, time: f64, starts: &[Start]) 
                 let start = Start { body: island.ids[0], x: island.x[0], v: island.v[0] };
                 begin_alone(model, state, time, &start)?;
             }
-            Regime::Held if is_for_steps(model, state, &island.ids, time) => {
+            Regime::Held if is_for_steps(model, state, &island, time) => {
                 halt(model, state, &island, time);
                 to_step.push(island.ids);
+            }
+            Regime::Held if rubs(model, &island) => {
+                let Some(face) = lone_face(model, &island) else {
+                    return Err(Fault::internal(time, "bodies that rub are not stepped"));
+                };
+                begin_on_face(model, state, &mut island, face, time)
+                    .map_err(|(body, error)| fault(model, body, time, error))?;
             }
             Regime::Held => {
                 begin_island(model, state, &mut island, time)
@@ -119,14 +127,16 @@ fn begin_islands(model: &Model, state: &mut State, time: f64, starts: &[Start]) 
     Ok(bodies)
 }
 
-/// Whether an island is too large for events, or costs too much.
-fn is_for_steps(model: &Model, state: &State, ids: &[u32], time: f64) -> bool {
+/// Whether an island is too large for events, costs too much, or rubs in a way that events do not know.
+fn is_for_steps(model: &Model, state: &State, island: &Island, time: f64) -> bool {
+    let ids = &island.ids;
     state.dense.is_some()
         && (ids.len() >= LARGE_ISLAND
             || ids
                 .iter()
                 .filter_map(|body| least_crowd(model, state, *body, time))
-                .any(|least| ids.len() >= least))
+                .any(|least| ids.len() >= least)
+            || rubs(model, island) && lone_face(model, island).is_none())
 }
 
 /// Lets bodies begin anew where they are, from where a step of theirs will go on.

@@ -15,7 +15,10 @@ use super::force::Force;
 use super::method::Method;
 use super::model::Model;
 use super::neighbours::enter;
-use super::report::{BodyState, ContactForce, Counters, Energy, Momentum, Plan, SteppedBodies, Tiling};
+use super::report::{
+    AngularMomentum, BodyState, ContactForce, Counters, Energy, Momentum, Plan, Rotation, SteppedBodies,
+    Tiling,
+};
 use super::state::State;
 use super::trace::{Begun, Piece};
 use super::{change, dense, drive, hash, monitor};
@@ -73,6 +76,7 @@ impl Simulation {
     pub fn with_method(scene: &Scene, method: Method) -> Result<Self, CompileError> {
         let (mut model, starts) = compile(scene, method).map_err(|problems| CompileError { problems })?;
         let mut state = State::new(&starts);
+        state.make_turns(&model);
         for body in 0..starts.len() as u32 {
             enter(&model, &mut state, body, 0.0);
         }
@@ -187,6 +191,11 @@ impl Simulation {
             velocity: path.velocity(now),
             acceleration: path.acceleration(now),
             contact: self.state.contact_state(index, now),
+            turn: self
+                .state
+                .turns
+                .get(index as usize)
+                .map(|turn| Rotation { orientation: turn.orientation_at(now), spin: turn.spin_at(now) }),
         })
     }
 
@@ -228,6 +237,12 @@ impl Simulation {
         self.dynamic_index(body).map(|index| self.model.mass(index))
     }
 
+    /// Kinetic energy of a dynamic body in a state, J, with that of its spin where bodies rub; `None` for others.
+    pub fn kinetic(&self, body: BodyRef, state: &BodyState) -> Option<f64> {
+        let index = self.dynamic_index(body)?;
+        Some(books::kinetic_in(&self.model, index, state))
+    }
+
     /// The body of a document key, if it is there now.
     pub fn find(&self, key: NodeKey) -> Option<BodyRef> {
         change::find(&self.model, key).map(BodyId::to_ref)
@@ -239,6 +254,11 @@ impl Simulation {
 
     pub fn momentum(&self) -> Momentum {
         books::momentum(&self.model, &self.state)
+    }
+
+    /// Angular momentum about the map's origin; `None` where nothing rubs.
+    pub fn angular_momentum(&self) -> Option<AngularMomentum> {
+        self.model.plan.spin.then(|| books::angular_momentum(&self.model, &self.state))
     }
 
     /// Deepest overlap of any two bodies now, m, ≥ 0. Costs a look through the tiles.

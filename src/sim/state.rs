@@ -16,7 +16,8 @@ use super::queue::{Kind, Predicted, Queue};
 use super::report::{ContactState, Counters};
 use super::segment::{Path, Segment, Series};
 use super::tiles::{DynamicTiles, TileRange};
-use super::trace::{Hold, Trace};
+use super::trace::{Held, Trace};
+use super::turn::{Hold, Turn};
 use super::way_in::Plunge;
 
 /// Mutable part of a simulation; a clone of it is a bit-exact snapshot.
@@ -32,6 +33,8 @@ pub(super) struct State {
     /// Grows with every new segment of the body, so that old predictions can be told.
     pub stamps: Vec<u32>,
     pub registered: Vec<TileRange>,
+    /// How bodies turn; empty where nothing rubs.
+    pub turns: Vec<Turn>,
     /// Integrated motion; empty while all forces are uniform and no surface is round.
     pub fields: Vec<FieldColumn>,
     /// Bodies close to an attractor, on their way in or back.
@@ -102,6 +105,7 @@ impl State {
             segments: Vec::with_capacity(origins.len()),
             stamps: Vec::with_capacity(origins.len()),
             registered: Vec::with_capacity(origins.len()),
+            turns: Vec::new(),
             fields: Vec::new(),
             plunges: BTreeMap::new(),
             captured: BTreeSet::new(),
@@ -145,6 +149,42 @@ impl State {
         let segment = &self.segments[body as usize];
         let series = (segment.step > 0.0).then(|| &self.fields[body as usize].series);
         Path { segment, series }
+    }
+
+    /// Angular velocity of a body, rad/s: that which an impact has just given it, or that of its motion.
+    pub fn spin(&self, body: u32, time: f64) -> DVec3 {
+        let turn = self.turns.get(body as usize);
+        turn.map_or(DVec3::ZERO, |turn| turn.given.unwrap_or_else(|| turn.spin_at(time)))
+    }
+
+    /// Gives a body the spin with which its next motion begins.
+    pub fn give_spin(&mut self, body: u32, spin: DVec3) {
+        if let Some(turn) = self.turns.get_mut(body as usize) {
+            turn.given = Some(spin);
+        }
+    }
+
+    /// Lets a body go on turning from a time on as nothing changes it.
+    pub fn turn_freely(&mut self, body: u32, time: f64) {
+        if let Some(turn) = self.turns.get_mut(body as usize) {
+            *turn = turn.steady_from(time);
+        }
+    }
+
+    /// What the contacts of a body let it do.
+    pub fn hold(&self, body: u32) -> Hold {
+        self.turns.get(body as usize).map_or(Hold::Free, |turn| turn.hold)
+    }
+
+    /// Room for turns where the scene needs them. Bodies that had none kept their spin from the start.
+    pub fn make_turns(&mut self, model: &Model) {
+        if !model.plan.spin {
+            return;
+        }
+        for body in self.turns.len()..self.segments.len() {
+            let (orientation, spin) = model.dynamic(body as u32).turn_at_start();
+            self.turns.push(Turn::steady(0.0, orientation, spin).steady_from(self.now));
+        }
     }
 
     /// The motion of any body.
@@ -203,17 +243,8 @@ impl State {
     /// How a body moves at a time, for people: a body in contact that neither moves nor is driven rests, and so does
     /// a captured one.
     pub fn contact_state(&self, body: u32, time: f64) -> ContactState {
-        match self.role(body) {
-            Role::Outside => {}
-            Role::Member(_) => return ContactState::Stepped,
-            Role::Frozen(_) => return ContactState::Rest,
-        }
-        if self.contacts[body as usize].is_empty() && !self.captured.contains(&body) {
-            return ContactState::Flight;
-        }
         let path = self.path(body);
-        let still = path.velocity(time) == DVec3::ZERO && path.acceleration(time) == DVec3::ZERO;
-        if still { ContactState::Rest } else { ContactState::Slide }
+        self.held(body).state(path.velocity(time), path.acceleration(time))
     }
 
     /// Notes the segment that a body has just begun, if the motion is recorded.
@@ -229,18 +260,18 @@ impl State {
     pub fn seal_trace(&mut self, event: u64, by_event: bool) {
         if self.trace.has_unsealed() {
             let mut trace = std::mem::take(&mut self.trace);
-            trace.seal(event, by_event, |body| self.hold(body));
+            trace.seal(event, by_event, |body| (self.held(body), self.turns.get(body as usize).copied()));
             self.trace = trace;
         }
     }
 
-    fn hold(&self, body: u32) -> Hold {
+    fn held(&self, body: u32) -> Held {
         match self.role(body) {
-            Role::Member(_) => Hold::Stepped,
-            Role::Frozen(_) => Hold::Frozen,
-            Role::Outside if !self.contacts[body as usize].is_empty() => Hold::Contact,
-            Role::Outside if self.captured.contains(&body) => Hold::Contact,
-            Role::Outside => Hold::Nothing,
+            Role::Member(_) => Held::Stepped,
+            Role::Frozen(_) => Held::Frozen,
+            Role::Outside if !self.contacts[body as usize].is_empty() => Held::Contact(self.hold(body)),
+            Role::Outside if self.captured.contains(&body) => Held::Contact(self.hold(body)),
+            Role::Outside => Held::Nothing,
         }
     }
 

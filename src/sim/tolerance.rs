@@ -130,6 +130,34 @@ pub(super) const FALLING: u32 = 8;
 /// slow collapses are not told from a gas that cools; more, and a body remembers blows of long ago.
 pub(super) const MEMORY: f64 = 1.0 - 1.0 / 256.0;
 
+// Friction.
+
+/// Phases of friction and of what it makes close, of one group, before its bodies are stepped instead. A phase closes a
+/// fraction of the one before; most groups need three. Fewer, and groups are stepped that end; more cost time.
+pub(super) const FRICTION_ROUNDS: usize = 100;
+
+/// Sweeps of one phase, and the change of a velocity, as a part of the fastest, at which they end: some hundred roundings.
+/// A larger one breaks the symmetry of a group, a smaller one is never met.
+pub(super) const FRICTION_SWEEPS: usize = 1000;
+pub(super) const FRICTION_SWEPT: f64 = 1e-15;
+
+/// A slip below this part of the speeds that it is the difference of is none. Smaller, a ball that rolls seems to slip by
+/// roundings; larger, slips that are slow beside the ball end too soon.
+pub(super) const NO_SLIP: f64 = 64.0 * f64::EPSILON;
+
+/// A slip and what drives it are of one line if they are to this part: then it does not turn. Smaller follows a turn that
+/// is rounding, larger leaves out one that is not.
+pub(super) const ONE_LINE: f64 = 1e-13;
+
+/// When a slip that turns would end within a time in which friction changes it by this part of the speeds, what is left of
+/// it is taken as straight: velocities at its end are exact all the same, and places are off by its square. Larger loses
+/// digits, smaller takes more steps.
+pub(super) const LAST_OF_SLIP: f64 = 1e-7;
+
+/// A step along a slip that turns goes so far at most of the way to where that ends: the turn becomes singular there.
+/// Larger is cut down by the integrator, smaller takes more steps.
+pub(super) const SHARE_OF_SLIP: f64 = 0.75;
+
 // Islands.
 
 /// Parts of an integrated segment at whose ends the pressure of its contacts is looked at. A step of the

@@ -4,8 +4,9 @@ use glam::DVec3;
 
 use super::event::BodyRef;
 use super::place::Place;
-use super::report::{BodyState, ContactState};
+use super::report::{BodyState, ContactState, Rotation};
 use super::segment::{Path, Segment, Series};
+use super::turn::{Hold, Turn};
 
 /// How one body moves from one moment on, until its next piece begins: a polynomial in the time since its start. It gives
 /// the same bits as the simulation that it was taken from.
@@ -17,7 +18,9 @@ pub struct Piece {
     a: DVec3,
     /// Of integrated motion only; apart, since most have none.
     series: Option<Box<Integrated>>,
-    hold: Hold,
+    held: Held,
+    /// Where bodies rub.
+    turn: Option<Box<Turn>>,
 }
 
 /// The series of a field segment with the length of its step, s.
@@ -29,15 +32,32 @@ struct Integrated {
 
 /// What holds a body while it follows a piece.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Hold {
+pub(super) enum Held {
     #[default]
     Nothing,
-    /// A lasting contact, or the core of an attractor.
-    Contact,
+    /// A lasting contact, or the core of an attractor; with what that lets it do where bodies rub.
+    Contact(Hold),
     /// It is stepped with others.
     Stepped,
     /// It lies still with others that were stepped.
     Frozen,
+}
+
+impl Held {
+    /// How a body moves with this velocity and acceleration, for people: one in contact that neither moves nor is driven
+    /// rests, and so does a captured one.
+    pub fn state(self, velocity: DVec3, acceleration: DVec3) -> ContactState {
+        let still = velocity == DVec3::ZERO && acceleration == DVec3::ZERO;
+        match self {
+            Self::Nothing => ContactState::Flight,
+            Self::Stepped => ContactState::Stepped,
+            Self::Frozen => ContactState::Rest,
+            Self::Contact(Hold::Rolls) if !still => ContactState::Roll,
+            Self::Contact(Hold::Slides) => ContactState::Slide,
+            Self::Contact(_) if still => ContactState::Rest,
+            Self::Contact(_) => ContactState::Slide,
+        }
+    }
 }
 
 /// A piece of a body's motion, and from when on it is seen.
@@ -65,7 +85,7 @@ impl Piece {
     pub(super) fn new(path: Path<'_>) -> Self {
         let Segment { start, x, v, a, step, .. } = *path.segment;
         let series = path.series.map(|series| Box::new(Integrated { step, series: *series }));
-        Self { start, x, v, a, series, hold: Hold::Nothing }
+        Self { start, x, v, a, series, held: Held::Nothing, turn: None }
     }
 
     /// Model time, s.
@@ -92,15 +112,12 @@ impl Piece {
     pub fn at(&self, time: f64) -> BodyState {
         let (position, velocity, acceleration) =
             self.with_path(|path| (path.position(time), path.velocity(time), path.acceleration(time)));
-        let still = velocity == DVec3::ZERO && acceleration == DVec3::ZERO;
-        let contact = match self.hold {
-            Hold::Nothing => ContactState::Flight,
-            Hold::Contact if still => ContactState::Rest,
-            Hold::Contact => ContactState::Slide,
-            Hold::Stepped => ContactState::Stepped,
-            Hold::Frozen => ContactState::Rest,
-        };
-        BodyState { position, velocity, acceleration, contact }
+        let contact = self.held.state(velocity, acceleration);
+        let turn = self
+            .turn
+            .as_ref()
+            .map(|turn| Rotation { orientation: turn.orientation_at(time), spin: turn.spin_at(time) });
+        BodyState { position, velocity, acceleration, contact, turn }
     }
 
     pub(super) fn place_and_velocity(&self, time: f64) -> (Place, DVec3) {
@@ -109,7 +126,9 @@ impl Piece {
 
     /// Bytes that it takes, those of its series included.
     pub fn bytes(&self) -> usize {
-        size_of::<Self>() + self.series.as_ref().map_or(0, |_| size_of::<Integrated>())
+        let series = self.series.as_ref().map_or(0, |_| size_of::<Integrated>());
+        let turn = self.turn.as_ref().map_or(0, |_| size_of::<Turn>());
+        size_of::<Self>() + series + turn
     }
 
     fn with_path<R>(&self, read: impl FnOnce(Path<'_>) -> R) -> R {
@@ -132,12 +151,15 @@ impl Trace {
         }
     }
 
-    /// Labels what was begun since the last call with the event that it is seen from, and with what holds the bodies.
-    pub fn seal(&mut self, event: u64, by_event: bool, hold: impl Fn(u32) -> Hold) {
+    /// Labels what was begun since the last call with the event that it is seen from, and with how the bodies are held
+    /// and turn.
+    pub fn seal(&mut self, event: u64, by_event: bool, how: impl Fn(u32) -> (Held, Option<Turn>)) {
         for begun in self.begun.iter_mut().skip(self.sealed) {
             (begun.event, begun.by_event) = (event, by_event);
             if let BodyRef::Dynamic(body) = begun.body {
-                begun.piece.hold = hold(body);
+                let (held, turn) = how(body);
+                begun.piece.held = held;
+                begun.piece.turn = turn.map(Box::new);
             }
         }
         self.sealed = self.begun.len();

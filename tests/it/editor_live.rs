@@ -323,6 +323,7 @@ fn the_state_now_becomes_the_start_in_one_undo_point() {
 
 fn moved(key: polyscene::scene::NodeKey, to: f64) -> BodyFrame {
     BodyFrame {
+        turn: None,
         key,
         position: DVec3::splat(to),
         velocity: DVec3::new(0.0, -to, 0.0),

@@ -145,6 +145,8 @@ mod sim_methods;
 mod sim_random;
 // Numbers at the ends of their range: bounded work; other units: the same bits.
 mod sim_range;
+// Friction and spin: single balls on faces, impacts.
+mod sim_spin;
 // Times of impact against bisection, at the rims of plates and spheres.
 mod sim_roots;
 // Scenes scaled by powers of two in length, time and mass give the scaled bits.

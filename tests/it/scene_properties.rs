@@ -1,7 +1,9 @@
 //! What holds for any input: no panic, the bytes come back, edits are undone, numbers keep their bits.
 
 use glam::DVec3;
-use polyscene::scene::{Body, BodyChange, Document, Edit, ForceChange, Motion, NodeKey, Shape, SimParams};
+use polyscene::scene::{
+    Body, BodyChange, Document, Edit, ForceChange, Motion, NodeKey, Roughness, Shape, SimParams,
+};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::Index;
@@ -144,7 +146,7 @@ struct Step {
 
 fn step() -> impl Strategy<Value = Step> {
     let number = prop_oneof![Just(0.0), Just(1.0), Just(0.1), -1e3..1e3, Just(1e-300), Just(f64::NAN)];
-    (any::<Index>(), 0..19_u8, number, "[ -~\n\té<&\"']{0,8}").prop_map(|(which, kind, number, text)| Step {
+    (any::<Index>(), 0..23_u8, number, "[ -~\n\té<&\"']{0,8}").prop_map(|(which, kind, number, text)| Step {
         which,
         kind,
         number,
@@ -179,6 +181,10 @@ impl Step {
             15 => body(BodyChange::Shape(Shape::Plane { half_x: number, half_y: 2.0 })),
             16 => body(BodyChange::Hidden(number > 0.0)),
             17 => body(BodyChange::Id(number as i64)),
+            18 => body(BodyChange::Friction(number)),
+            19 => body(BodyChange::Tangential(number)),
+            20 => body(BodyChange::RollingFriction(number)),
+            21 => body(BodyChange::Spin(vector)),
             _ => Edit::AddBody(Box::new(Body {
                 key: NodeKey::default(),
                 id: 1,
@@ -191,6 +197,8 @@ impl Step {
                 position: vector,
                 rotation: DVec3::ZERO,
                 bounce: 1.0,
+                roughness: Roughness { friction: number.abs(), rolling: 0.0, tangential: 0.5 },
+                spin: DVec3::ZERO,
                 material: None,
                 motion: Motion::Static,
                 shape: Shape::Plane { half_x: 1.0, half_y: 2.0 },

@@ -1,6 +1,6 @@
 //! Snapping, round lengths and short numbers.
 
-use glam::{DVec3, dvec3};
+use glam::dvec3;
 use polyscene::view::{Camera, Viewport, number, snap, snap_step, with_unit};
 
 #[test]

@@ -91,6 +91,7 @@ pub fn pressed(keys: [u64; 2], ends: [DVec3; 2], force: f64) -> ContactFrame {
 /// A frame with the furnished box's balls moved on, one impact, and a few tiles.
 pub fn frame() -> Frame {
     let now = |key, position, velocity: DVec3, contact| BodyFrame {
+        turn: None,
         key: NodeKey(key),
         position,
         velocity,

@@ -28,7 +28,7 @@ impl<'a> FinalScene<'a> {
         check_writable(self.path).map_err(|error| CliError::unwritable(self.path, &error))
     }
 
-    /// Writes `document` with the positions and velocities of `sim` now; a file is replaced in one go. A file
+    /// Writes `document` with the positions, velocities and spins of `sim` now; a file is replaced in one go. A file
     /// that another program wrote during the run stays, and the state goes beside it: neither is lost.
     pub fn write(&self, document: &Document, sim: &Simulation) -> Result<(), CliError> {
         let last = with_state_of(document, sim).map_err(|error| {

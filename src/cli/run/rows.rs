@@ -60,6 +60,11 @@ struct BodyRow<'a> {
     id: &'a str,
     x: [f64; 3],
     v: [f64; 3],
+    /// Where bodies rub: the unit quaternion x, y, z, w, world from body, and the angular velocity, rad/s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    q: Option<[f64; 4]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    w: Option<[f64; 3]>,
     state: &'static str,
 }
 
@@ -72,6 +77,8 @@ impl<'a> StateRow<'a> {
                 id: sim.label(body),
                 x: numbers(state.position),
                 v: numbers(state.velocity),
+                q: state.turn.map(|turn| turn.orientation.to_array()),
+                w: state.turn.map(|turn| numbers(turn.spin)),
                 state: state.contact.name(),
             })
         });

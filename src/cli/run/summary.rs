@@ -26,6 +26,9 @@ pub struct Summary<'a> {
     wall_s: f64,
     energy: EnergyReport,
     momentum: MomentumReport,
+    /// About the map's origin, kg·m²/s; only where bodies rub.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    angular_momentum: Option<MomentumReport>,
     /// m, the deepest at any sample that was looked at.
     max_overlap: f64,
     /// FNV-1a of the last state's bits, in hexadecimal.
@@ -35,12 +38,17 @@ pub struct Summary<'a> {
     warnings: &'a [String],
 }
 
-/// Events by kind, in the order of [`EventKind::ALL`].
-struct ByKind([u64; EventKind::ALL.len()]);
+/// Events by kind, in the order of [`EventKind::ALL`]; without what no scene has where nothing rubs.
+struct ByKind {
+    counts: [u64; EventKind::ALL.len()],
+    rubs: bool,
+}
 
 impl Serialize for ByKind {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(EventKind::ALL.iter().map(|kind| kind.name()).zip(self.0))
+        let all = EventKind::ALL.iter().zip(self.counts);
+        let there = all.filter(|(kind, _)| self.rubs || **kind != EventKind::Roll);
+        serializer.collect_map(there.map(|(kind, count)| (kind.name(), count)))
     }
 }
 
@@ -82,6 +90,8 @@ struct PlanReport<'a> {
     motion: &'a str,
     pairs: &'a [&'static str],
     lasting_contact: bool,
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    spin: bool,
     group_step: f64,
     left_out: &'a [&'static str],
 }
@@ -109,9 +119,13 @@ impl<'a> Summary<'a> {
                 Ending::Faulted(fault) => Some(fault.to_string()),
                 Ending::Exceeded(why) => Some(format!("early, at t = {} s: {why}", sim.time())),
             },
-            events: ByKind(counters.events),
+            events: ByKind { counts: counters.events, rubs: sim.plan().spin },
             wall_s,
             energy: energy_report(sim.energy()),
+            angular_momentum: sim.angular_momentum().map(|angular| MomentumReport {
+                value: angular.value.to_array(),
+                residual: angular.residual,
+            }),
             momentum: MomentumReport { value: momentum.value.to_array(), residual: momentum.residual },
             max_overlap,
             hash: format!("{:016x}", sim.hash()),
@@ -151,12 +165,16 @@ impl<'a> Summary<'a> {
         if let Some(stopped) = &self.stopped {
             line(&mut text, "stopped", stopped);
         }
-        let total: u64 = self.events.0.iter().sum();
+        let total: u64 = self.events.counts.iter().sum();
         line(&mut text, "events", &format!("{total}{}", self.kinds()));
         line(&mut text, "energy", &self.energy.for_people());
         let [x, y, z] = self.momentum.value.map(short);
         let residual = small(self.momentum.residual);
         line(&mut text, "momentum", &format!("({x}, {y}, {z}) kg·m/s; residual {residual}"));
+        if let Some(MomentumReport { value, residual }) = &self.angular_momentum {
+            let [x, y, z] = value.map(short);
+            line(&mut text, "spin", &format!("L = ({x}, {y}, {z}) kg·m²/s; residual {}", small(*residual)));
+        }
         line(&mut text, "overlap", &format!("at most {} m at a sample", small(self.max_overlap)));
         if self.work.given_up > 0 {
             let given_up = format!("{} times: a Δt ran into its limit of collisions", self.work.given_up);
@@ -174,7 +192,7 @@ impl<'a> Summary<'a> {
 
     /// ` (240 impact, 2 rest)`, without the kinds that did not happen.
     fn kinds(&self) -> String {
-        let kinds = EventKind::ALL.iter().zip(self.events.0).filter(|(_, count)| *count > 0);
+        let kinds = EventKind::ALL.iter().zip(self.events.counts).filter(|(_, count)| *count > 0);
         let kinds: Vec<_> = kinds.map(|(kind, count)| format!("{count} {}", kind.name())).collect();
         if kinds.is_empty() { String::new() } else { format!(" ({})", kinds.join(", ")) }
     }
@@ -198,6 +216,9 @@ impl PlanReport<'_> {
             format!("{} dynamic, {} static; {} motion", self.dynamic_bodies, self.static_bodies, self.motion);
         if !self.pairs.is_empty() {
             let _ = write!(text, "; {}", self.pairs.join(", "));
+        }
+        if self.spin {
+            text.push_str("; bodies rub and turn");
         }
         if self.lasting_contact {
             text.push_str("; contacts can last");
@@ -234,6 +255,7 @@ fn plan_report(plan: &Plan) -> PlanReport<'_> {
         motion: plan.motion,
         pairs: &plan.pairs,
         lasting_contact: plan.lasting_contact,
+        spin: plan.spin,
         group_step: plan.group_step,
         left_out: &plan.left_out,
     }

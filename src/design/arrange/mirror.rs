@@ -64,6 +64,10 @@ fn image(body: &Body, axis: DVec3, at: f64) -> Vec<BodyChange> {
     }
     if let Motion::Dynamic { velocity, .. } = body.motion {
         changes.push(BodyChange::Velocity(velocity * flip));
+        if body.spin != DVec3::ZERO {
+            // The image of a spin turns the other way round.
+            changes.push(BodyChange::Spin(-(body.spin * flip)));
+        }
     }
     changes
 }

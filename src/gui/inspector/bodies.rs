@@ -173,9 +173,9 @@ fn rows(
         let (range, width) = (field.range, WIDTH);
         let spec = Number { name: &name, value, range, speed, width, help, angle, whole: false };
         number(ui, context.outbox, &spec, |typed| field.edit(&shown.scene, keys, axis, typed));
-        match field.now.zip(now) {
-            Some((get, frame)) => {
-                let value = get(frame).to_array().get(axis).copied().unwrap_or(0.0);
+        match field.now.zip(now).and_then(|(get, frame)| get(frame)) {
+            Some(vector) => {
+                let value = vector.to_array().get(axis).copied().unwrap_or(0.0);
                 drop(ui.label(mono(significant(value, 8))).on_hover_text(value.to_string()));
             }
             None => drop(ui.label("")),
@@ -226,6 +226,17 @@ fn help(label: &str) -> &'static str {
         "Bounce" => {
             "Coefficient of restitution: 1 loses nothing, 0 does not bounce. A pair uses the product of both"
         }
+        "Angular velocity" => "About the axes of the map, at the start. Only friction makes it matter",
+        "Friction" => {
+            "Coefficient of Coulomb's friction. A pair uses the geometric mean of both, so against 0 nothing rubs"
+        }
+        "Rolling friction" => {
+            "Share of the load that slows a rolling ball down. A pair uses the geometric mean of both"
+        }
+        "Tangential" => {
+            "Tangential restitution: what part of the slip comes back from an impact that does not slide, 1 for a \
+             superball. A pair uses the geometric mean of both"
+        }
         "Half side" => "From the middle of the plane to its edge",
         _ => "",
     }
@@ -246,7 +257,13 @@ fn motion(ui: &mut Ui, now: &BodyFrame) {
                 row(ui, [label, axis], significant(value, 8), unit, help);
             }
         }
-        row(ui, ["Kinetic energy", ""], significant(now.kinetic, 8), "J", "½ m v²");
+        row(
+            ui,
+            ["Kinetic energy", ""],
+            significant(now.kinetic, 8),
+            "J",
+            "½ m v², and ½ I ω² where bodies rub",
+        );
         row(ui, ["Contact", ""], now.contact.name().to_owned(), "", now.contact.meaning());
     });
 }

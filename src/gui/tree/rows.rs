@@ -314,7 +314,8 @@ impl Chip {
     }
 }
 
-/// The mark that the views have for a body in contact: square at rest, ring sliding, diamond stepped.
+/// The mark that the views have for a body in contact: square at rest, ring sliding, disc rolling, diamond
+/// stepped.
 fn paint_contact(ui: &Ui, context: &AppContext<'_>, center: egui::Pos2, contact: ContactState) {
     let (painter, palette) = (ui.painter(), context.palette());
     match contact {
@@ -327,6 +328,7 @@ fn paint_contact(ui: &Ui, context: &AppContext<'_>, center: egui::Pos2, contact:
             let stroke = egui::Stroke::new(1.5, color32(palette.slide));
             painter.circle_stroke(center, 3.0, stroke);
         }
+        ContactState::Roll => drop(painter.circle_filled(center, 3.5, color32(palette.roll))),
         ContactState::Stepped => {
             let corners = [vec2(0.0, -4.0), vec2(4.0, 0.0), vec2(0.0, 4.0), vec2(-4.0, 0.0)];
             let corners = corners.map(|corner| center + corner).to_vec();

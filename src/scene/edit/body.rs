@@ -15,6 +15,7 @@ use crate::scene::tree::{Child, Element};
 pub(super) fn change(pen: Pen<'_>, el: &Arc<Element>, lead: &str, change: &BodyChange) -> Changed {
     let dynamic = pen.view(el).name() == "SoftObject";
     let leaf = |name, numbers: &[_], default| pen.with_leaf(el, lead, (name, &BODY_ORDER), numbers, default);
+    let rough = |name, value| new_leaf(pen, el, lead, name, &[("F32", value)]);
     match change {
         BodyChange::Id(id) => Ok(pen.with_text(el, "UserID", &id.to_string())),
         BodyChange::Name(name) => {
@@ -44,8 +45,20 @@ pub(super) fn change(pen: Pen<'_>, el: &Arc<Element>, lead: &str, change: &BodyC
             check("the bounce", *bounce, Range::NotNegative)?;
             leaf("Bounce", &[("F32", *bounce)], Some(1.0))
         }
+        BodyChange::Friction(friction) => {
+            check("the friction", *friction, Range::NotNegative)?;
+            rough("Friction", *friction)
+        }
+        BodyChange::RollingFriction(rolling) => {
+            check("the rolling friction", *rolling, Range::NotNegative)?;
+            rough("RollingFriction", *rolling)
+        }
+        BodyChange::Tangential(tangential) => {
+            check("the tangential restitution", *tangential, Range::Between(0.0, 1.0))?;
+            rough("Tangential", *tangential)
+        }
         BodyChange::Material(material) => set_material(pen, el, lead, material.as_deref()),
-        BodyChange::Mass(_) | BodyChange::Velocity(_) if !dynamic => {
+        BodyChange::Mass(_) | BodyChange::Velocity(_) | BodyChange::Spin(_) if !dynamic => {
             Err(EditError::Invalid("a static body has no mass and no velocity".into()))
         }
         BodyChange::Mass(mass) => {
@@ -56,10 +69,25 @@ pub(super) fn change(pen: Pen<'_>, el: &Arc<Element>, lead: &str, change: &BodyC
             check_vector("the velocity", *velocity, Range::Any)?;
             leaf("InitialVelocity", &vector(*velocity), Some(0.0))
         }
+        BodyChange::Spin(spin) => {
+            check_vector("the angular velocity", *spin, Range::Any)?;
+            new_leaf(pen, el, lead, "InitialAngularVelocity", &vector(*spin))
+        }
         BodyChange::Shape(shape) => {
             check_shape(shape, dynamic)?;
             set_shape(pen, el, lead, shape)
         }
+    }
+}
+
+/// Sets the numbers of an element of 1.1, which goes where they become 0: so older tools read the file again. One that
+/// was written with 0 all along stays.
+fn new_leaf(pen: Pen<'_>, el: &Arc<Element>, lead: &str, name: &str, numbers: &[(&str, f64)]) -> Changed {
+    let changed = pen.with_leaf(el, lead, (name, &BODY_ORDER), numbers, Some(0.0))?;
+    let is_gone = numbers.iter().all(|(_, value)| *value == 0.0) && !Arc::ptr_eq(&changed, el);
+    match pen.child_at(&changed, name).filter(|_| is_gone) {
+        Some(at) => Ok(Arc::new(pen.without_child(&changed, at))),
+        None => Ok(changed),
     }
 }
 

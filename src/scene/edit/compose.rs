@@ -9,7 +9,7 @@ use super::force::kind_name;
 use super::pen::{Changed, Pen};
 use super::settings::vector;
 use crate::scene::tree::Child;
-use crate::scene::{Body, Force, ForceKind, Motion, Shape, parse};
+use crate::scene::{Body, Force, ForceKind, Motion, Roughness, Shape, parse};
 
 /// A body with the given id, its lines indented by `lead`.
 pub(super) fn body(pen: Pen<'_>, lead: &str, id: i64, body: &Body) -> String {
@@ -21,12 +21,19 @@ pub(super) fn body(pen: Pen<'_>, lead: &str, id: i64, body: &Body) -> String {
     parts.push(pen.leaf("Translation", &vector(body.position)));
     parts.push(pen.leaf("Rotation", &vector(body.rotation)));
     parts.push(pen.leaf("Bounce", &[("F32", body.bounce)]));
+    let Roughness { friction, rolling, tangential } = body.roughness;
+    let rough = [("Friction", friction), ("RollingFriction", rolling), ("Tangential", tangential)];
+    let is_set = |(_, value): &(&str, f64)| *value != 0.0;
+    parts.extend(rough.into_iter().filter(is_set).map(|(name, value)| pen.leaf(name, &[("F32", value)])));
     parts.extend(body.material.as_deref().filter(|text| !text.is_empty()).map(|text| material(pen, text)));
     let name = match body.motion {
         Motion::Static => "HardObject",
         Motion::Dynamic { mass, velocity } => {
             parts.push(pen.leaf("Weight", &[("F32", mass)]));
             parts.push(pen.leaf("InitialVelocity", &vector(velocity)));
+            if body.spin != glam::DVec3::ZERO {
+                parts.push(pen.leaf("InitialAngularVelocity", &vector(body.spin)));
+            }
             "SoftObject"
         }
     };

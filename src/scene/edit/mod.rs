@@ -76,11 +76,16 @@ pub enum BodyChange {
     Position(DVec3),
     Rotation(DVec3),
     Bounce(f64),
+    Friction(f64),
+    RollingFriction(f64),
+    Tangential(f64),
     Material(Option<String>),
     /// Dynamic bodies only.
     Mass(f64),
     /// Dynamic bodies only.
     Velocity(DVec3),
+    /// Dynamic bodies only.
+    Spin(DVec3),
     Shape(Shape),
 }
 

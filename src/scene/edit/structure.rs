@@ -193,6 +193,10 @@ fn check_body(body: &Body) -> Result<(), EditError> {
     check_vector("the position", body.position, Range::Any)?;
     check_vector("the rotation", body.rotation, Range::Any)?;
     check("the bounce", body.bounce, Range::NotNegative)?;
+    check("the friction", body.roughness.friction, Range::NotNegative)?;
+    check("the rolling friction", body.roughness.rolling, Range::NotNegative)?;
+    check("the tangential restitution", body.roughness.tangential, Range::Between(0.0, 1.0))?;
+    check_vector("the angular velocity", body.spin, Range::Any)?;
     if let Motion::Dynamic { mass, velocity } = body.motion {
         check("the mass", mass, Range::Positive)?;
         check_vector("the velocity", velocity, Range::Any)?;

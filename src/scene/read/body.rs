@@ -10,16 +10,18 @@ use super::log::{Log, place_in};
 use super::shape;
 use crate::scene::rules::Range;
 use crate::scene::tree::View;
-use crate::scene::{Body, Motion, shown};
+use crate::scene::{Body, Motion, Roughness, shown};
 
 pub(super) const BODIES: [&str; 2] = ["SoftObject", "HardObject"];
 
 /// The children of a body in the order in which they are written. A static body has no mass or motion.
-pub(in crate::scene) const BODY_ORDER: [&str; 14] = [
+pub(in crate::scene) const BODY_ORDER: [&str; 16] = [
     "Translation",
     "Rotation",
     "Bounce",
     "Friction",
+    "RollingFriction",
+    "Tangential",
     "Material",
     "Weight",
     "InitialVelocity",
@@ -38,26 +40,44 @@ pub(in crate::scene) const SHAPES: [&str; 6] = ["Sphere", "Plane", "Box", "Cylin
 /// Reads a body. What is wrong is reported and takes its default, so that the body can be shown and repaired.
 pub(super) fn read<'a>(el: View<'a>, log: &mut Log<'a>, cosmetics: Cosmetics, uses: &mut Vec<Use>) -> Body {
     let dynamic = el.name() == "SoftObject";
-    let [translation, rotation, bounce, friction, material, weight, velocity, spin, shapes @ ..] =
-        log.children(el, BODY_ORDER);
-    for child in [friction, material, spin].into_iter().chain(shapes).flatten() {
+    let [
+        translation,
+        rotation,
+        bounce,
+        friction,
+        rolling,
+        tangential,
+        material,
+        weight,
+        velocity,
+        spin,
+        shapes @ ..,
+    ] = log.children(el, BODY_ORDER);
+    for child in [friction, rolling, tangential, material, spin].into_iter().chain(shapes).flatten() {
         feature::note(uses, child.name(), child.place());
     }
     if translation.is_none() {
         let hint = "write <Translation X=\"…\" Y=\"…\" Z=\"…\" />";
         log.error(el.place(), "the body has no Translation", hint);
     }
-    unbuilt_friction(log, friction);
-    unbuilt_spin(log, spin, dynamic);
+    let mut coefficient =
+        |el: Option<View<'a>>, range| el.and_then(|el| log.scalar(el, range)).unwrap_or(0.0);
+    let roughness = Roughness {
+        friction: coefficient(friction, Range::NotNegative),
+        rolling: coefficient(rolling, Range::NotNegative),
+        tangential: coefficient(tangential, Range::Between(0.0, 1.0)),
+    };
     let mut vector =
         |el: Option<View<'a>>| el.and_then(|el| log.vector(el, Range::Any)).unwrap_or(DVec3::ZERO);
     let (position, rotation) = (vector(translation), vector(rotation));
+    let mut turns = DVec3::ZERO;
     let motion = if dynamic {
         let velocity = vector(velocity);
+        turns = vector(spin);
         let mass = weight.and_then(|el| log.scalar(el, Range::Positive)).unwrap_or(1.0);
         Motion::Dynamic { mass, velocity }
     } else {
-        for child in [weight, velocity].into_iter().flatten() {
+        for child in [weight, velocity, spin].into_iter().flatten() {
             let message = format!("{} means nothing on a static body", child.name());
             log.warn(child.place(), message, "it is kept as it is; a SoftObject would use it");
         }
@@ -75,6 +95,8 @@ pub(super) fn read<'a>(el: View<'a>, log: &mut Log<'a>, cosmetics: Cosmetics, us
         position,
         rotation,
         bounce: read_bounce(log, bounce),
+        roughness,
+        spin: turns,
         material: material.and_then(|el| read_material(log, el)),
         motion,
         shape: shape::read(el, log, shapes, dynamic),
@@ -101,23 +123,6 @@ fn read_material<'a>(log: &mut Log<'a>, el: View<'a>) -> Option<String> {
         }
         text.map(Cow::into_owned).filter(|text| !text.is_empty())
     })
-}
-
-fn unbuilt_friction<'a>(log: &mut Log<'a>, el: Option<View<'a>>) {
-    let Some(el) = el else { return };
-    if log.scalar(el, Range::NotNegative).is_some_and(|friction| friction != 0.0) {
-        log.within(el, |log| unbuilt(log, el, "Friction other than 0"));
-    }
-}
-
-fn unbuilt_spin<'a>(log: &mut Log<'a>, el: Option<View<'a>>, dynamic: bool) {
-    let Some(el) = el else { return };
-    let spins = log.vector(el, Range::Any).is_some_and(|spin| spin != DVec3::ZERO);
-    if spins && dynamic {
-        log.within(el, |log| unbuilt(log, el, "InitialAngularVelocity other than 0"));
-    } else if spins {
-        log.warn(el.place(), "InitialAngularVelocity means nothing on a static body", "it is kept as it is");
-    }
 }
 
 /// Reports what the format knows and this version cannot simulate.

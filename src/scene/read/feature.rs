@@ -1,9 +1,11 @@
 //! What format 1.1 added: physics that an older reader would silently leave out.
 
 /// Elements of 1.1, by name. The order is that of the list a user sees.
-pub(in crate::scene) const NAMES: [&str; 9] = [
+pub(in crate::scene) const NAMES: [&str; 11] = [
     "SpaceAverse",
     "Friction",
+    "RollingFriction",
+    "Tangential",
     "Material",
     "InitialAngularVelocity",
     "Box",

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::rub::Rubbing;
 use super::stepped::{Contact, Near, Stepped};
 use super::sweep::{Solution, System};
 use crate::sim::pair::Pair;
@@ -94,6 +95,7 @@ pub(super) struct Work {
     /// Places in `near` of those that are too far apart to count until they are seen to meet.
     pub waiting: Vec<u32>,
     pub system: System,
+    pub rubbing: Rubbing,
     pub solution: Solution,
     /// s.
     pub end: f64,
@@ -125,6 +127,8 @@ pub(in crate::sim) struct Dense {
     pub members: Vec<Member>,
     /// In order.
     pub pairs: Vec<Listed>,
+    /// Forces of friction on the second bodies of the pairs in the last step, N; none where nothing rubs.
+    pub rubs: Vec<DVec3>,
     /// In the order of their first bodies; as good as the list.
     pub(super) components: Vec<Component>,
     /// Grows with every new list, so that what was predicted for an old one can be told.
@@ -153,6 +157,7 @@ impl Dense {
             activity: vec![Activity::default(); bodies],
             members: Vec::new(),
             pairs: Vec::new(),
+            rubs: Vec::new(),
             components: Vec::new(),
             epoch: 0,
             listed_since: 0.0,

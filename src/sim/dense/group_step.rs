@@ -10,12 +10,14 @@ use super::data::{Component, Dense, Member, Role, Work};
 use super::list::{self, NearOutsiders};
 use super::membership::{Left, component, frozen_with, take_in};
 use super::rest::{freeze, is_still, leave, record_group};
+use super::rub::law;
 use super::start::read_bodies;
-use super::stepped::Contact;
+use super::stepped::{Contact, FIXED};
 use super::sweep::{Moving, closing, solve, velocity};
 use super::tolerance::{
     MOST_ATTEMPTS, MOST_HALVINGS, MOST_HALVINGS_TO_CONVERGE, MOST_SWEEPS, TURN_IN_A_STEP, WAY_OF_RADIUS,
 };
+use crate::sim::account::angular;
 use crate::sim::body::BodyId;
 use crate::sim::capture::{hold, is_swallowed};
 use crate::sim::event::EventKind;
@@ -279,8 +281,9 @@ fn propose(model: &Model, state: &mut State, dense: &Dense, component: &mut Comp
         work.end = step_end(model.dense_step, work.halvings, time);
         let h = work.end - time;
         work.bodies.iter_mut().for_each(|body| body.take_step(h));
+        component.work.rubbing.begin(model, state, &component.work.bodies, time);
         find_contacts(model, state, dense, component, h);
-        solve_contacts(model, state, component, h);
+        solve_contacts(model, state, dense, component, h);
         let work = &mut component.work;
         state.counters.sweeps += work.solution.sweeps as u64;
         if work.solution.has_converged || work.halvings >= MOST_HALVINGS_TO_CONVERGE {
@@ -311,8 +314,9 @@ fn find_contacts(model: &Model, state: &State, dense: &Dense, component: &mut Co
 }
 
 /// Solves the contacts that were found, with those that wait as soon as they are seen to meet.
-fn solve_contacts(model: &Model, state: &State, component: &mut Component, h: f64) {
-    let Component { near, work: Work { bodies, contacts, waiting, system, solution, .. }, .. } = component;
+fn solve_contacts(model: &Model, state: &State, dense: &Dense, component: &mut Component, h: f64) {
+    let Component { near, work: Work { bodies, contacts, waiting, system, rubbing, solution, .. }, .. } =
+        component;
     let meet = |moving: &[Moving], contacts: &mut Vec<Contact>| {
         waiting.retain(|place| {
             let near = &near[*place as usize];
@@ -325,7 +329,8 @@ fn solve_contacts(model: &Model, state: &State, component: &mut Component, h: f6
             met.is_none()
         });
     };
-    *solution = solve(system, contacts, bodies, h, meet);
+    let law = |contact: &Contact| law(model, dense, contact);
+    *solution = solve(system, contacts, bodies, h, (rubbing, &law), meet);
 }
 
 /// How often the step of a component must be halved at least: as often as the last, or once less after an easy one,
@@ -385,6 +390,13 @@ fn carry_out(
     let h = work.end - time;
     note_forces(dense, component, h);
     book_outside(state, work);
+    if !work.rubbing.spins.is_empty() {
+        note_friction(dense, component, h);
+        book_friction(state, work);
+        for (body, spin) in work.bodies.iter().zip(&work.rubbing.spins) {
+            state.give_spin(body.body, *spin);
+        }
+    }
     for (body, moving) in work.bodies.iter().zip(&work.system.moving) {
         let v = if body.inverse_mass > 0.0 { velocity(moving) - 0.5 * h * body.a } else { DVec3::ZERO };
         let segment =
@@ -412,6 +424,47 @@ fn note_forces(dense: &mut Dense, component: &Component, h: f64) {
                 dense.members[*slot as usize].idle = 0;
             }
         }
+    }
+}
+
+/// Keeps the friction for the next step. Whoever lies on two bodies that do not move stays, however it moves.
+fn note_friction(dense: &mut Dense, component: &Component, h: f64) {
+    let Component { slots, near, work, .. } = component;
+    for near in near {
+        dense.rubs[near.listed as usize] = DVec3::ZERO;
+    }
+    for (contact, impulse) in work.rubbing.impulses() {
+        dense.rubs[work.contacts[contact].listed as usize] = impulse / h;
+    }
+    let mut supports = vec![0_u32; slots.len()];
+    for contact in work.contacts.iter().filter(|contact| contact.impulse > 0.0 && contact.b == FIXED) {
+        supports[contact.a as usize] += 1;
+    }
+    for (slot, _) in slots.iter().zip(supports).filter(|(_, supports)| *supports > 1) {
+        dense.members[*slot as usize].idle = 0;
+    }
+}
+
+/// Books the friction that what does not move gave, and the angular momentum of all that it gave.
+fn book_friction(state: &mut State, work: &Work) {
+    let is_fixed = |index: u32| work.bodies.get(index as usize).is_none_or(|body| body.inverse_mass == 0.0);
+    let shares = |ends: [u32; 2]| f64::from(is_fixed(ends[0])) - f64::from(is_fixed(ends[1]));
+    let at = |contact: &Contact| {
+        let body = &work.bodies[contact.a as usize];
+        body.x + body.radius * contact.normal
+    };
+    for contact in work.contacts.iter().filter(|contact| contact.impulse > 0.0) {
+        let given = shares([contact.a, contact.b]) * contact.impulse * contact.normal;
+        state.account.angular.impulses.add(angular(at(contact), given));
+    }
+    for (contact, impulse) in work.rubbing.impulses() {
+        let contact = &work.contacts[contact];
+        let given = shares([contact.a, contact.b]) * impulse;
+        state.account.impulses.add(given);
+        state.account.angular.impulses.add(angular(at(contact), given));
+    }
+    for (ends, torque) in work.rubbing.torques() {
+        state.account.angular.impulses.add(shares(ends) * torque);
     }
 }
 

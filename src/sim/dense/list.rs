@@ -35,6 +35,9 @@ pub(super) fn make(model: &Model, state: &mut State, dense: &mut Dense, time: f6
     let mut pairs = dynamic_pairs(model, &dense.members);
     let outsiders = near_pairs(model, state, dense, &mut pairs);
     pairs.sort_unstable_by_key(|listed| listed.pair);
+    if model.plan.spin {
+        dense.rubs = carried_rubs(&dense.pairs, &dense.rubs, &pairs);
+    }
     carry_forces(&dense.pairs, &mut pairs);
     dense.pairs = pairs;
     note_company(dense);
@@ -125,4 +128,14 @@ fn carry_forces(old: &[Listed], new: &mut [Listed]) {
             listed.force = before.force;
         }
     }
+}
+
+/// The same for their friction.
+fn carried_rubs(old: &[Listed], rubs: &[DVec3], new: &[Listed]) -> Vec<DVec3> {
+    let mut old = old.iter().zip(rubs).peekable();
+    let of = |listed: &Listed| {
+        while old.next_if(|(before, _)| before.pair < listed.pair).is_some() {}
+        old.next_if(|(before, _)| before.pair == listed.pair).map_or(DVec3::ZERO, |(_, rub)| *rub)
+    };
+    new.iter().map(of).collect()
 }

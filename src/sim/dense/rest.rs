@@ -7,6 +7,7 @@ use super::membership::{Left, release};
 use super::stepped::FIXED;
 use super::tolerance::{IDLE_STEPS, STILL, STILL_ENERGY, STILL_STEPS};
 use super::view::keep_forces;
+use crate::sim::account::angular;
 use crate::sim::body::BodyId;
 use crate::sim::books::potential_of;
 use crate::sim::event::{Event, EventKind};
@@ -14,6 +15,7 @@ use crate::sim::ledger::{rank, record};
 use crate::sim::model::Model;
 use crate::sim::motion::place;
 use crate::sim::neighbours::register_within;
+use crate::sim::rub::inertia;
 use crate::sim::segment::Segment;
 use crate::sim::state::State;
 
@@ -83,6 +85,12 @@ pub(super) fn freeze(model: &Model, state: &mut State, dense: &mut Dense, bodies
     for body in bodies {
         let (x, v) = (state.position(*body, time), state.velocity(*body, time));
         let mass = model.mass(*body);
+        if model.plan.spin {
+            let (inertia, spin) = (inertia(model, *body), state.spin(*body, time));
+            state.account.impact_losses.add(0.5 * inertia * spin.length_squared());
+            state.account.angular.impulses.add(angular(x, -mass * v) - inertia * spin);
+            state.give_spin(*body, DVec3::ZERO);
+        }
         let still = Segment { constrained: true, ..Segment::ballistic(time, x, DVec3::ZERO, DVec3::ZERO) };
         place(model, state, *body, still, None);
         state.account.impact_losses.add(0.5 * mass * v.length_squared());

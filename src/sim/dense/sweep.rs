@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::rub::{LawOf, Rubbing};
 use super::stepped::{Contact, Stepped};
 use super::tolerance::{
     BUDGET, COARSEST, FINEST, FINEST_OF_DEEP, GAIN, GROSS_GAIN, MOST_SWEEPS, SHARE_OF_BUDGET, SHARE_OF_WAY,
@@ -58,37 +59,59 @@ pub(super) fn solve(
     contacts: &mut Vec<Contact>,
     bodies: &[Stepped],
     h: f64,
+    (rubbing, law): (&mut Rubbing, &LawOf<'_>),
     mut meet: impl FnMut(&[Moving], &mut Vec<Contact>),
 ) -> Solution {
     let tolerance = Tolerance::of(bodies, h);
+    let scale_of = |contact: &Contact| tolerance.row(contact).scale;
+    let rub_on = |system: &mut System, rubbing: &mut Rubbing, first: usize, contacts: &[Contact]| {
+        let rows = rubbing.len();
+        rubbing.add(first, &contacts[first..], bodies, (h, &scale_of), law);
+        rubbing.warm_up(rows, bodies, &mut system.moving);
+    };
     system.begin(bodies, h);
     system.add(contacts, &tolerance);
+    rub_on(system, rubbing, 0, contacts);
     let allowed = allowed_gain(bodies);
     let (mut extra, mut solution) = (0, Solution::default());
     let loss = loop {
         if solution.sweeps >= MOST_SWEEPS {
-            break system.judge(contacts, h).0;
+            let rubbed = if rubbing.is_empty() { 0.0 } else { rubbing.loss(&system.moving) };
+            break system.judge(contacts, h).0 + rubbed;
         }
-        let worst = system.sweep(solution.sweeps % 2 == 1);
+        let is_backward = solution.sweeps % 2 == 1;
+        let mut worst = system.sweep(is_backward);
+        if !rubbing.is_empty() {
+            worst = worst.max(rubbing.sweep(&mut system.moving, &system.impulses, is_backward));
+        }
         solution.sweeps += 1;
         if worst > 1.0 {
-            system.go_on();
+            // The bounds of friction move with the impulses: nothing is to be overshot.
+            if rubbing.is_empty() {
+                system.go_on();
+            }
             continue;
         }
         let before = contacts.len();
         meet(&system.moving, contacts);
         if contacts.len() > before {
             system.add(&contacts[before..], &tolerance);
+            rub_on(system, rubbing, before, contacts);
             continue;
         }
-        let (loss, sinks) = system.judge(contacts, h);
+        let (mut loss, sinks) = system.judge(contacts, h);
+        if !rubbing.is_empty() {
+            loss += rubbing.loss(&system.moving);
+        }
         let gains_grossly = -loss > GROSS_GAIN * allowed;
         solution.has_converged = !sinks && !gains_grossly;
         let is_tired = extra >= SWEEPS_AGAINST_GAIN && !gains_grossly;
         if is_tired || (!sinks && -loss <= allowed) {
             break loss;
         }
-        system.go_on();
+        if rubbing.is_empty() {
+            system.go_on();
+        }
         extra += 1;
     };
     solution.loss = loss;

@@ -75,6 +75,7 @@ pub(in crate::sim) fn place(
 ) {
     book_segment(model, state, body, segment.start);
     state.forget_touching(body);
+    state.turn_freely(body, segment.start);
     let index = body as usize;
     if let Some(column) = column {
         if state.fields.len() <= index {

@@ -3,14 +3,17 @@
 mod collocation;
 mod control;
 mod coupled;
+mod face;
 mod law;
 mod plunge;
 mod quadrature;
 mod radau;
 mod smoothness;
+mod straight;
 mod tolerance;
 
 pub(super) use coupled::{CoupledStart, Step, coupled_step};
+pub(super) use face::{Going, OnFace, go_on_face};
 pub(super) use law::{begin_segment, begin_stay, check, place, step_hint};
 pub(super) use plunge::turn_back;
 pub(super) use quadrature::integrate;

@@ -46,7 +46,7 @@ mod tests {
     use super::super::Shape;
     use super::*;
     use crate::scene::{Body, Document, Force, ForceKind, Motion, NodeKey, NumberStyle, Scene};
-    use crate::sim::body::{self, Identity};
+    use crate::sim::body::{self, Identity, Rare};
     use crate::sim::compile::compile;
     use crate::sim::drive;
     use crate::sim::event::{BodyRef, Event, EventKind};
@@ -88,7 +88,7 @@ mod tests {
         let (label, name) = (Arc::from("2"), Arc::from("2"));
         let identity = Identity { key: NodeKey(2), id: 2, label, name, order: 0 };
         let shape = Shape::Capsule(capsule);
-        model.bodies.push(body::Body::new(identity, f64::INFINITY, 1.0, shape, None), MIDDLE);
+        model.bodies.push(body::Body::new(identity, f64::INFINITY, 1.0, shape, Rare::default()), MIDDLE);
         model.static_tiles = StaticTiles::new(&model.grid, &model.bodies, 1000);
         let mut state = State::new(&origins);
         enter(&model, &mut state, 0, 0.0);

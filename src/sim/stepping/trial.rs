@@ -70,6 +70,7 @@ fn replace(model: &Model, state: &mut State, body: u32, segment: Segment) -> Res
         return Err(Fault { time: segment.start, message, key: Some(identity.key) });
     }
     book_segment(model, state, body, segment.start);
+    state.turn_freely(body, segment.start);
     state.segments[body as usize] = segment;
     state.counters.segments += 1;
     state.note_begun(body);

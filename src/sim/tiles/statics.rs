@@ -180,7 +180,10 @@ mod tests {
     fn add(bodies: &mut Bodies, position: DVec3, shape: Shape) {
         let (label, name) = (Arc::from("0"), Arc::from("0"));
         let identity = Identity { key: NodeKey(0), id: 0, label, name, order: 0 };
-        bodies.push(Body::new(identity, f64::INFINITY, 1.0, shape, None), position);
+        bodies.push(
+            Body::new(identity, f64::INFINITY, 1.0, shape, crate::sim::body::Rare::default()),
+            position,
+        );
     }
 
     fn random_plate(random: &mut Random) -> (Bodies, Plate) {

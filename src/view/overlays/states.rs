@@ -1,4 +1,5 @@
-//! Marks on bodies in lasting contact: a square at rest, a ring while sliding, a diamond while stepped.
+//! Marks on bodies in lasting contact: a square at rest, a ring while sliding, a disc while rolling, a diamond
+//! while stepped.
 
 use crate::scene::Shape;
 use crate::sim::ContactState;
@@ -15,6 +16,7 @@ pub(in crate::view) fn add(stage: &Stage<'_>, list: &mut DrawList) {
         let (shape, color) = match posed.now.map(|now| now.contact) {
             Some(ContactState::Rest) => (PointShape::Square, stage.palette.rest),
             Some(ContactState::Slide) => (PointShape::Ring, stage.palette.slide),
+            Some(ContactState::Roll) => (PointShape::Disc, stage.palette.roll),
             Some(ContactState::Stepped) => (PointShape::Diamond, stage.palette.stepped),
             Some(ContactState::Flight) | None => continue,
         };
