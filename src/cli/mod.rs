@@ -14,8 +14,10 @@ mod marks;
 mod method;
 mod number;
 mod output;
+mod record;
 #[cfg(feature = "render")]
 mod render;
+mod replay;
 mod run;
 mod samples;
 mod schema;
@@ -38,8 +40,10 @@ pub use export::ExportArgs;
 pub use hard_cases::HardCasesArgs;
 pub use import::ImportArgs;
 pub use input::{Examined, examine};
+pub use record::RecordArgs;
 #[cfg(feature = "render")]
 pub use render::RenderArgs;
+pub use replay::ReplayArgs;
 pub use run::RunArgs;
 pub use schema::SchemaArgs;
 pub use study::StudyArgs;
@@ -55,7 +59,7 @@ pub use study::StudyArgs;
     disable_help_subcommand = true,
     after_help = "Without a verb the editor's window opens; a file named like a verb is given as ./run.\n\n\
                   Exit codes: 0 fine (warnings allowed), 1 the scene has errors or `export --strict` would lose something, 2 bad usage or an output that \
-                  cannot be written, 3 the run stopped on a numerical fault, 4 it stopped early at --max-events or \
+                  cannot be written, 3 the run stopped on a numerical fault or parts from its recording, 4 it stopped early at --max-events or \
                   --max-wall, 130 interrupted."
 )]
 struct Cli {
@@ -84,6 +88,8 @@ pub enum Verb {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         arguments: Vec<OsString>,
     },
+    Record(RecordArgs),
+    Replay(ReplayArgs),
     Schema(SchemaArgs),
     Study(StudyArgs),
 }
@@ -102,6 +108,8 @@ impl Verb {
             Self::Render(args) => render::render(args),
             #[cfg(not(feature = "render"))]
             Self::Render { .. } => Err(CliError::no_pictures()),
+            Self::Record(args) => record::record(args),
+            Self::Replay(args) => replay::replay(args),
             Self::Schema(args) => schema::schema_of(args),
             Self::Study(args) => study::study(args),
         }

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::ledger::EventRow;
+use super::moment::Moment;
 use super::paths::PathSpan;
 use crate::scene::{NodeKey, Scene};
 use crate::sim::{Method, SimEdit};
@@ -56,6 +57,8 @@ pub enum RunCommand {
     GoTo {
         event: u64,
     },
+    /// To a moment of the recording.
+    Show(Moment),
     /// To a time, s: into the recording, or beyond it by Δt of this length.
     Seek {
         dt: f64,
@@ -91,6 +94,8 @@ pub enum Goal {
     Rest,
     /// So many events from now.
     Events(u64),
+    /// The event of this number.
+    Event(u64),
 }
 
 impl Of {

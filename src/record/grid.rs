@@ -22,6 +22,11 @@ impl StepGrid {
         self.before + self.ticks + u64::from(self.open.is_some())
     }
 
+    /// Where Δt of this length begin to be counted, and the length, s.
+    pub(super) fn stretch(&self) -> (f64, f64) {
+        (self.origin, self.dt)
+    }
+
     /// Start and end of the Δt being looked at; `None` before the first.
     pub(super) fn span(&self) -> Option<(f64, f64)> {
         let at = |ticks: u64| self.origin + ticks as f64 * self.dt;

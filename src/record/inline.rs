@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::file::{RecordingFile, file_of};
 use super::publish::{Pace, frame_of};
 use super::recorder::RunRecorder;
 use super::{Exceeded, Frame, Limits, RunCommand, RunState, Runner, Watch};
@@ -25,6 +26,16 @@ impl InlineRunner {
     /// A runner that gives a command up where a limit is reached; its time begins now.
     pub fn limited(limits: Limits) -> Self {
         Self { watch: Some(Watch::start(limits)), ..Self::default() }
+    }
+
+    /// The recording so far as a file, of a scene with this name and these bytes; `None` without a simulation.
+    pub fn recording(&self, scene_name: &str, scene: &[u8]) -> Option<RecordingFile> {
+        self.recorder.run.as_ref().map(|run| file_of(run, scene_name, scene))
+    }
+
+    /// Hash of the simulation; `None` without one.
+    pub fn hash(&self) -> Option<u64> {
+        self.recorder.run.as_ref().map(|run| run.simulation.hash())
     }
 
     /// The limit that was reached, if one was.

@@ -118,4 +118,9 @@ impl Keyframes {
     pub(super) fn exchange_first(&mut self, simulation: &Simulation) {
         self.list[0].snapshot = simulation.snapshot();
     }
+
+    /// Each moment with the number of edits behind it, and the hash of the simulation there.
+    pub(super) fn states(&self) -> impl Iterator<Item = (Moment, usize, u64)> + '_ {
+        self.list.iter().map(|key| (key.at, key.edits, key.hash))
+    }
 }

@@ -2,6 +2,7 @@
 
 mod command;
 mod drift;
+mod file;
 mod frame;
 mod grid;
 mod inline;
@@ -27,6 +28,7 @@ mod track;
 use std::sync::Arc;
 
 pub use command::{Goal, Of, RunCommand};
+pub use file::{Checkpoint, EditsAt, MOST_BYTES, NamedMoment, RecordingError, RecordingFile, Steps};
 pub use frame::{BodyFrame, Busiest, ContactFrame, Frame, Jump, Lag, LagCause, Recorded, RunState};
 pub use inline::InlineRunner;
 pub use ledger::{EventRow, Ledger};

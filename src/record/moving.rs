@@ -42,6 +42,15 @@ impl Run {
         self.show(moment, self.grid_around_event(moment));
     }
 
+    /// To a moment, if it is recorded.
+    pub(super) fn go_to(&mut self, moment: Moment) {
+        if self.recording.from().is_not_after(moment) && moment.is_not_after(self.recording.end) {
+            self.show(moment, self.grid_at(moment));
+        } else {
+            self.message = Some(format!("event {} at {} s is not recorded", moment.event, moment.time));
+        }
+    }
+
     /// To a time, if it is recorded; whether it is.
     pub(super) fn seek(&mut self, time: f64) -> bool {
         if time > self.recording.end.time {

@@ -193,6 +193,7 @@ impl RunRecorder {
             RunCommand::StepBack => drop(run.step_back()),
             RunCommand::EventBack { of } => run.event_back(of),
             RunCommand::GoTo { event } => run.go_to_event(event),
+            RunCommand::Show(moment) => run.go_to(moment),
             RunCommand::Edit(edits) => self.edits.extend(edits),
             RunCommand::BringBack => run.bring_back(),
             _ => {}

@@ -116,6 +116,12 @@ impl Goal {
                 *left -= u64::from(run.slice(dt, Stop::AT_EVENTS, budget) == Slice::Event).min(*left);
                 *left == 0
             }
+            Self::Event(number) => {
+                if run.cursor.event < *number {
+                    run.slice(dt, Stop::AT_EVENTS, budget);
+                }
+                run.cursor.event >= *number
+            }
             Self::Rest => {
                 if run.is_at_rest() {
                     return true;

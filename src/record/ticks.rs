@@ -1,5 +1,6 @@
 //! The Δt that a run was divided into: their ends, with the grid as it stood there.
 
+use super::file::Steps;
 use super::grid::StepGrid;
 use super::moment::Moment;
 
@@ -63,5 +64,20 @@ impl Ticks {
     pub(super) fn drop_before(&mut self, time: f64) {
         let old = self.0.partition_point(|tick| tick.at.time < time);
         self.0.drain(..old.min(self.0.len().saturating_sub(1)));
+    }
+
+    /// The Δt in the order in which they were taken, those of one length together.
+    pub(super) fn steps(&self) -> Vec<Steps> {
+        let mut steps: Vec<Steps> = Vec::new();
+        let mut origin = None;
+        for tick in self.0.iter().skip(1) {
+            let (begin, dt) = tick.grid.stretch();
+            match steps.last_mut() {
+                Some(last) if origin == Some((begin, dt)) => last.count += 1,
+                _ => steps.push(Steps { dt, count: 1 }),
+            }
+            origin = Some((begin, dt));
+        }
+        steps
     }
 }

@@ -1,13 +1,14 @@
 //! The typed scene: the meaning of a document, in SI units, right-handed, y up.
 
 use glam::{DMat3, DVec3};
+use serde::{Deserialize, Serialize};
 
 use super::SimParams;
 
 /// Identifies one element of a document for as long as the document and its edits live.
 ///
 /// Keys are never reused, survive every edit and undo, and are not written to the file.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct NodeKey(pub u64);
 
 /// Everything a simulation needs to know.
@@ -38,7 +39,7 @@ pub struct Map {
     pub tiles: [u32; 3],
 }
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Force {
     pub key: NodeKey,
     /// UserID of the file; forces and bodies are separate name spaces and files repeat IDs.
@@ -65,7 +66,7 @@ impl Force {
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum ForceKind {
     /// F = G m r/|r|³ towards `position`; `intensity` is G in m³/s², negative repels.
     GravityPoint { position: DVec3, intensity: f64 },
@@ -99,7 +100,7 @@ impl ForceKind {
     }
 }
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Body {
     pub key: NodeKey,
     /// UserID of the file, which may repeat.
@@ -170,7 +171,7 @@ impl Body {
 
 /// What resists sliding and rolling on a body. A pair uses the geometric mean of both numbers, so a smooth body meets
 /// all others without friction.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Roughness {
     /// Coefficient μ of Coulomb's friction, ≥ 0.
     pub friction: f64,
@@ -180,7 +181,7 @@ pub struct Roughness {
     pub tangential: f64,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Motion {
     /// `HardObject`: never moves.
     Static,
@@ -188,7 +189,7 @@ pub enum Motion {
     Dynamic { mass: f64, velocity: DVec3 },
 }
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Shape {
     /// Radius in metres, > 0.
     Sphere { radius: f64 },

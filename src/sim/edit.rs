@@ -1,9 +1,11 @@
 //! Changes to a running simulation. Each applies at the model time at which it is given.
 
+use serde::{Deserialize, Serialize};
+
 use crate::scene::{Body, Force, NodeKey, Roughness};
 
 /// One change. Bodies and forces are named by their document key.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum SimEdit {
     AddBody(Box<Body>),
     Remove(NodeKey),

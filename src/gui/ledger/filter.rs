@@ -105,6 +105,7 @@ impl FilterBar {
                 ui.weak("Select one body, or two, to list only their events");
             }
         });
+        named(&response.response, "Bodies listed");
         response
             .response
             .on_hover_text("Whose events are listed: all, of the body selected, or between two selected");
@@ -115,7 +116,8 @@ impl FilterBar {
             0 => "All kinds".to_owned(),
             without => format!("{} kinds", EventKind::ALL.len() - without),
         };
-        egui::ComboBox::from_id_salt("ledger kinds").selected_text(text).width(80.0).show_ui(ui, |ui| {
+        let combo = egui::ComboBox::from_id_salt("ledger kinds").selected_text(text).width(80.0);
+        let response = combo.show_ui(ui, |ui| {
             for kind in EventKind::ALL {
                 let mut listed = !self.filter.without.contains(&kind);
                 let name = kind.name().replace('_', " ");
@@ -127,7 +129,13 @@ impl FilterBar {
                 }
             }
         });
+        named(&response.response, "Kinds listed");
+        response.response.on_hover_text("Which kinds of events are listed");
     }
+}
+
+fn named(response: &egui::Response, name: &str) {
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, name));
 }
 
 /// A number that may be left out.

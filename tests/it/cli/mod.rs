@@ -7,6 +7,7 @@ mod export;
 mod limits;
 mod names;
 mod outputs;
+mod record;
 mod run;
 mod streams;
 mod study;

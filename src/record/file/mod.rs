@@ -1,0 +1,192 @@
+//! A recording as a file: the scene's bytes, how it was stepped, the edits, bookmarks, and hashes of the state along the way.
+//! Whoever has it runs the same again and sees where, if anywhere, the runs part.
+
+mod keys;
+mod script;
+#[cfg(test)]
+mod tests;
+
+pub(super) use script::file_of;
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use serde::{Deserialize, Serialize};
+
+use super::moment::Moment;
+use crate::scene::{Document, Scene, escaped};
+use crate::sim::{Method, SimEdit};
+use keys::NamedKey;
+
+/// What the file calls itself.
+const FORMAT: &str = "polyscene recording";
+const VERSION: u32 = 1;
+
+/// Length of a Δt where none is recorded, s.
+const USUAL_DT: f64 = 1.0 / 60.0;
+
+/// Largest file that is read: scenes of 256 MiB and what belongs to them.
+pub const MOST_BYTES: u64 = 512 << 20;
+
+/// All of a recording that others need. Motion and events are not in it: they come again with the same bits.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RecordingFile {
+    format: String,
+    version: u32,
+    /// Version of the program that wrote it.
+    pub build: String,
+    /// Name of the scene's file.
+    pub scene_name: String,
+    /// Its bytes, in base64: they may be in any encoding.
+    scene: String,
+    /// `exact`, `thesis` or `fixed`.
+    method: String,
+    /// The Δt in the order in which they were taken.
+    pub steps: Vec<Steps>,
+    /// Edits while it ran, in the order of their moments.
+    pub edits: Vec<EditsAt>,
+    /// Whom they name.
+    names: Vec<NamedKey>,
+    /// How far it was simulated.
+    pub end: Moment,
+    /// States along the way.
+    pub checkpoints: Vec<Checkpoint>,
+    #[serde(default)]
+    pub bookmarks: Vec<NamedMoment>,
+}
+
+/// So many Δt of one length.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Steps {
+    /// s.
+    pub dt: f64,
+    pub count: u64,
+}
+
+/// Edits made together.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct EditsAt {
+    pub at: Moment,
+    pub edits: Vec<SimEdit>,
+}
+
+/// A moment with the hash of the simulation there.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Checkpoint {
+    pub at: Moment,
+    /// Hexadecimal.
+    pub hash: String,
+}
+
+/// A bookmark.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NamedMoment {
+    pub name: String,
+    /// s.
+    pub time: f64,
+    /// The event that it stands right at.
+    pub event: Option<u64>,
+}
+
+/// Why a recording cannot be used.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RecordingError {
+    #[error("this is not a recording: {0}")]
+    Malformed(String),
+    #[error("it is of version {0}, and this program reads version {VERSION}; a newer program may read it")]
+    Version(u32),
+    #[error("its scene has errors: {0}")]
+    Scene(String),
+    #[error("{0}")]
+    Content(String),
+}
+
+impl RecordingFile {
+    pub(super) fn new(scene_name: &str, scene: &[u8], method: Method) -> Self {
+        Self {
+            format: FORMAT.to_owned(),
+            version: VERSION,
+            build: env!("CARGO_PKG_VERSION").to_owned(),
+            scene_name: scene_name.to_owned(),
+            scene: STANDARD.encode(scene),
+            method: method.name().to_owned(),
+            steps: Vec::new(),
+            edits: Vec::new(),
+            names: Vec::new(),
+            end: Moment::default(),
+            checkpoints: Vec::new(),
+            bookmarks: Vec::new(),
+        }
+    }
+
+    /// Reads a file's bytes and checks all that they claim.
+    pub fn read(bytes: &[u8]) -> Result<Self, RecordingError> {
+        let malformed = |error: serde_json::Error| RecordingError::Malformed(error.to_string());
+        let head: Head = serde_json::from_slice(bytes).map_err(malformed)?;
+        if head.format != FORMAT {
+            return Err(RecordingError::Malformed(format!("its format is “{}”", escaped(&head.format))));
+        }
+        if head.version != VERSION {
+            return Err(RecordingError::Version(head.version));
+        }
+        let file: Self = serde_json::from_slice(bytes).map_err(malformed)?;
+        file.check()?;
+        Ok(file)
+    }
+
+    /// As a file has it.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, RecordingError> {
+        let mut bytes =
+            serde_json::to_vec_pretty(self).map_err(|error| RecordingError::Content(error.to_string()))?;
+        bytes.push(b'\n');
+        Ok(bytes)
+    }
+
+    pub fn method(&self) -> Result<Method, RecordingError> {
+        let found = Method::ALL.into_iter().find(|method| method.name() == self.method);
+        found
+            .ok_or_else(|| RecordingError::Content(format!("there is no method “{}”", escaped(&self.method))))
+    }
+
+    /// The scene's document.
+    pub fn document(&self) -> Result<Document, RecordingError> {
+        let bytes = STANDARD.decode(&self.scene);
+        let bytes =
+            bytes.map_err(|error| RecordingError::Content(format!("its scene is not base64: {error}")))?;
+        Ok(Document::from_bytes(&bytes))
+    }
+
+    /// The scene itself.
+    pub fn scene(document: &Document) -> Result<Scene, RecordingError> {
+        let problem = document.diagnostics().iter().find(|problem| problem.is_error());
+        match (problem, document.scene()) {
+            (None, Some(scene)) => Ok(scene.clone()),
+            (problem, _) => {
+                let text = problem.map_or("it means nothing", |problem| &problem.message);
+                Err(RecordingError::Scene(text.to_owned()))
+            }
+        }
+    }
+
+    /// Numbers that a run could not take.
+    fn check(&self) -> Result<(), RecordingError> {
+        let wrong = |what: &str| Err(RecordingError::Content(what.to_owned()));
+        let moments = self.edits.iter().map(|edits| edits.at).chain([self.end]);
+        if !moments.clone().all(|moment| moment.time.is_finite() && moment.time >= 0.0) {
+            return wrong("a time in it is not one of a run");
+        }
+        if !moments.clone().zip(moments.skip(1)).all(|(a, b)| a.is_not_after(b)) {
+            return wrong("its edits are not in the order of their times");
+        }
+        if !self.steps.iter().all(|steps| steps.dt.is_finite() && steps.dt > 0.0) {
+            return wrong("a Δt in it is not above zero");
+        }
+        self.method().map(|_| ())
+    }
+}
+
+/// What is looked at before the rest.
+#[derive(Deserialize)]
+struct Head {
+    format: String,
+    version: u32,
+}

@@ -1,0 +1,81 @@
+//! A recording with edits goes through its file and comes out as the same run.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by stopping")]
+
+use std::sync::Arc;
+
+use super::RecordingFile;
+use crate::record::command::{Of, RunCommand};
+use crate::record::inline::InlineRunner;
+use crate::record::{Frame, Runner as _};
+use crate::scene::{Body, Document, ForceKind, Motion, NodeKey, Shape};
+use crate::sim::{Method, SimEdit};
+
+const SCENE: &[u8] = include_bytes!("../../../scenes/thesis-appendix-2.xml");
+const DT: f64 = 0.05;
+
+fn runner(document: &Document, method: Method) -> InlineRunner {
+    let mut runner = InlineRunner::new();
+    runner.send(RunCommand::Method(method));
+    runner.send(RunCommand::Load(Arc::new(document.scene().unwrap().clone())));
+    runner
+}
+
+/// Edits of every kind, at the end of a Δt, inside one and right at an event.
+fn edited(method: Method) -> (Arc<Frame>, RecordingFile) {
+    let document = Document::from_bytes(SCENE);
+    let scene = document.scene().unwrap().clone();
+    let mut runner = runner(&document, method);
+    let (ball, wall) = (runner.frame().bodies[0].key, scene.bodies.iter().find(|b| !b.is_dynamic()).unwrap());
+    let mut send = |command| drop(runner.send(command));
+    send(RunCommand::Step { dt: DT, count: 7 });
+    send(RunCommand::Edit(vec![SimEdit::Mass(ball, 3.25), SimEdit::Bounce(wall.key, 0.5)]));
+    send(RunCommand::NextEvent { dt: DT, of: Of::All });
+    let mut force = scene.forces[0].clone();
+    force.kind = ForceKind::GravityPlane { position: glam::DVec3::ZERO, acceleration: glam::DVec3::X };
+    send(RunCommand::Edit(vec![SimEdit::ChangeForce(Box::new(force))]));
+    send(RunCommand::Step { dt: DT, count: 5 });
+    send(RunCommand::Seek { dt: DT, time: 1.2345 });
+    let new = Body {
+        key: NodeKey(9_000_000),
+        ..Body::new(77, glam::dvec3(5.0, 9.0, 5.0), Motion::Static, Shape::Sphere { radius: 0.25 })
+    };
+    send(RunCommand::Edit(vec![SimEdit::AddBody(Box::new(new))]));
+    send(RunCommand::Step { dt: DT, count: 20 });
+    send(RunCommand::Edit(vec![SimEdit::Remove(NodeKey(9_000_000))]));
+    send(RunCommand::Step { dt: 0.02, count: 10 });
+    assert_eq!(runner.frame().fault, None);
+    (runner.frame(), runner.recording("thesis.xml", SCENE).unwrap())
+}
+
+#[test]
+fn the_same_run_comes_out_of_a_file_with_edits() {
+    for method in Method::ALL {
+        let (recorded, file) = edited(method);
+        let file = RecordingFile::read(&file.to_bytes().unwrap()).unwrap();
+        let document = file.document().unwrap();
+        let mut again = runner(&document, file.method().unwrap());
+        for command in file.commands(document.scene().unwrap()).unwrap() {
+            again.send(command);
+        }
+        let frame = again.frame();
+        let name = method.name();
+        assert_eq!(frame.fault, None, "{name}");
+        assert_eq!((frame.time, frame.event_count), (recorded.time, recorded.event_count), "{name}");
+        let states = |frame: &Frame| {
+            frame.bodies.iter().map(|body| (body.position, body.velocity)).collect::<Vec<_>>()
+        };
+        assert_eq!(states(&frame), states(&recorded), "{name}");
+        for checkpoint in &file.checkpoints {
+            again.send(RunCommand::Show(checkpoint.at));
+            assert_eq!(again.frame().fault, None, "{name} at {:?}", checkpoint.at);
+            assert_eq!(
+                format!("{:016x}", again.hash().unwrap()),
+                checkpoint.hash,
+                "{name} at {:?}",
+                checkpoint.at
+            );
+        }
+        assert!(file.checkpoints.len() > 4, "{name}: {} states", file.checkpoints.len());
+    }
+}

@@ -1,0 +1,98 @@
+//! `record` and `replay`: the same run again, and where it parts from what was recorded.
+
+use super::{BOUNCE, Bench};
+
+/// A bench with a recording of two seconds.
+fn recorded() -> Bench {
+    let bench = Bench::with_scene(BOUNCE);
+    let made = bench.polyscene(&["record", "scene.xml", "--until", "2.5", "-o", "run.psrec"]);
+    assert_eq!((made.code, made.stdout.as_str()), (0, ""), "{}", made.stderr);
+    assert!(made.stderr.contains("2.5 s, 1 events"), "{}", made.stderr);
+    bench
+}
+
+#[test]
+fn a_recording_is_run_again_with_the_same_states() {
+    let bench = recorded();
+    std::fs::remove_file(bench.path("scene.xml")).expect("the recording holds the scene");
+    let again = bench.polyscene(&["replay", "run.psrec", "--verify"]);
+    assert_eq!(again.code, 0, "{}", again.stderr);
+    assert!(again.stderr.contains("states are the same"), "{}", again.stderr);
+    let at_event = bench.polyscene(&["replay", "run.psrec", "--to-event", "1", "--events", "-"]);
+    assert_eq!(at_event.code, 0, "{}", at_event.stderr);
+    assert!(at_event.stderr.contains(" at 0.95831484749991 s, 1 events"), "{}", at_event.stderr);
+    assert_eq!(at_event.stdout.lines().count(), 1);
+    assert!(at_event.stdout.contains("\"kind\":\"impact\""), "{}", at_event.stdout);
+    let before = bench.polyscene(&["replay", "run.psrec", "--to", "0.5", "--events", "-"]);
+    assert_eq!((before.code, before.stdout.as_str()), (0, ""), "{}", before.stderr);
+}
+
+#[test]
+fn every_method_is_recorded() {
+    let bench = Bench::with_scene(BOUNCE);
+    for method in ["exact", "thesis", "fixed"] {
+        let file = format!("{method}.psrec");
+        let made = bench.polyscene(&[
+            "record",
+            "scene.xml",
+            "--until",
+            "1.23",
+            "--dt",
+            "0.05",
+            "--method",
+            method,
+            "-o",
+            &file,
+        ]);
+        assert_eq!(made.code, 0, "{}", made.stderr);
+        let again = bench.polyscene(&["replay", &file, "--verify"]);
+        assert_eq!(again.code, 0, "{method}: {}", again.stderr);
+    }
+}
+
+#[test]
+fn a_run_that_parts_from_its_recording_ends_with_3_and_says_where() {
+    let bench = recorded();
+    let text = bench.read("run.psrec");
+    let last = text.rfind("\"hash\": \"").expect("a state") + 9;
+    let other = if text.as_bytes()[last] == b'0' { "1" } else { "0" };
+    bench.write("other.psrec", format!("{}{other}{}", &text[..last], &text[last + 1..]));
+    let outcome = bench.polyscene(&["replay", "other.psrec", "--verify"]);
+    assert_eq!(outcome.code, 3, "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("the run parts from the recording after t = "), "{}", outcome.stderr);
+    assert_eq!(bench.polyscene(&["replay", "other.psrec"]).code, 0, "nothing is compared unasked");
+    bench.write("longer.psrec", text.replacen("\"event\": 1", "\"event\": 2", 1));
+    let outcome = bench.polyscene(&["replay", "longer.psrec"]);
+    assert!(matches!(outcome.code, 2 | 3), "{}: {}", outcome.code, outcome.stderr);
+}
+
+#[test]
+fn what_is_no_recording_is_refused_with_its_reason() {
+    let bench = recorded();
+    let text = bench.read("run.psrec");
+    bench.write("scene.psrec", BOUNCE.to_owned());
+    bench.write("newer.psrec", text.replacen("\"version\": 1", "\"version\": 7", 1));
+    bench.write("cut.psrec", text[..text.len() / 2].to_owned());
+    bench.write("base64.psrec", text.replacen("\"scene\": \"", "\"scene\": \"*", 1));
+    bench.write("method.psrec", text.replacen("\"exact\"", "\"guess\"", 1));
+    bench.write("step.psrec", text.replacen("\"dt\": 0.0", "\"dt\": -0.0", 1));
+    let cases = [
+        ("scene.psrec", "not a recording"),
+        ("newer.psrec", "version 7"),
+        ("cut.psrec", "not a recording"),
+        ("base64.psrec", "not base64"),
+        ("method.psrec", "no method “guess”"),
+        ("step.psrec", "Δt in it is not above zero"),
+        ("missing.psrec", "cannot read missing.psrec"),
+    ];
+    for (file, hint) in cases {
+        let outcome = bench.polyscene(&["replay", file, "--verify"]);
+        assert_eq!((outcome.code, outcome.stdout.as_str()), (2, ""), "{file}: {}", outcome.stderr);
+        assert!(outcome.stderr.contains(hint), "{file} should say {hint:?}: {}", outcome.stderr);
+    }
+    let beyond = bench.polyscene(&["replay", "run.psrec", "--to", "9"]);
+    assert_eq!(beyond.code, 2, "{}", beyond.stderr);
+    let kept = bench.polyscene(&["record", "scene.xml", "--until", "1", "-o", "run.psrec"]);
+    assert_eq!(kept.code, 2, "{}", kept.stderr);
+    assert_eq!(bench.read("run.psrec"), text);
+}
