@@ -369,6 +369,15 @@ pub const COMMANDS: &[CommandInfo] = &[
     .keys(&[Shortcut::plain(Key::Char('L'))]),
     row(Menu::View, 5, "show_accuracy", "Accuracy", "Shows speed against error of every method")
         .window(WindowCommand::ShowAccuracy),
+    row(
+        Menu::View,
+        5,
+        "show_xml",
+        "XML text",
+        "Shows the file as it would be saved, with what is selected marked",
+    )
+    .window(WindowCommand::ShowXml)
+    .keys(&[Shortcut::ctrl('U')]),
     row(Menu::View, 5, "reset_layout", "Reset the panels", "Puts all panels where they are in a new window")
         .window(WindowCommand::ResetLayout),
     row(Menu::View, 5, "switch_colors", "Dark or light colours", "Switches the colours of the window")

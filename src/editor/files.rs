@@ -121,6 +121,7 @@ impl Session {
             None => OpenFile::untitled(found.title()),
         };
         self.replace(Document::from_bytes(&bytes), file, false);
+        self.doc.saved = found.path.as_deref().map(Document::open);
         // the old copy goes only when this run has its own
         match self.write_recovery() {
             Ok(()) => found.forget(),
@@ -181,6 +182,7 @@ impl Session {
             return self.talk.notices.push(Notice::error(text));
         }
         self.doc.history.mark_saved();
+        self.doc.saved = Some(self.document().clone());
         self.doc.file = OpenFile::at(path, DiskStamp::of(path).ok());
         self.forget_recovery();
         self.remember(path);

@@ -39,6 +39,8 @@ mod settings;
 mod start;
 mod sync;
 mod talk;
+mod text;
+mod text_diff;
 mod trouble_list;
 
 pub use action::Action;
@@ -64,3 +66,5 @@ pub use samples::{SAMPLES, Sample, SampleGroup};
 pub use selection::{Place, Selection};
 pub use session::Session;
 pub use settings::{EditorSettings, Storage};
+pub use text::DocumentText;
+pub use text_diff::{DiffLine, diff};

@@ -11,6 +11,8 @@ use crate::scene::{Document, escaped};
 pub(super) struct OpenDocument {
     pub history: History,
     pub file: OpenFile,
+    /// The document as its file holds it, if it has one.
+    pub saved: Option<Document>,
     /// Grows with every document that replaces another.
     pub opened: u64,
     /// The copies made last.
@@ -33,6 +35,7 @@ impl OpenDocument {
     /// `saved` says whether the document is what its file holds.
     pub fn new(document: Document, file: OpenFile, saved: bool) -> Self {
         Self {
+            saved: saved.then(|| document.clone()),
             history: History::new(document, saved),
             file,
             opened: 0,

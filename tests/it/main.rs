@@ -69,6 +69,8 @@ mod gui_picture;
 mod gui_real;
 // The window's content without a window.
 mod gui_support;
+// The text of the file beside the picture.
+mod gui_xml;
 // The window as a whole: selecting, stepping, events, overlays, problems, shortcuts, rest.
 mod gui_window;
 // What the window says back: refusals, Escape, snapping, markers, names.
