@@ -27,8 +27,8 @@ pub(super) struct OpenFile {
     pub title: String,
     /// What the file held when it was read or written.
     pub stamp: Option<DiskStamp>,
-    /// Whether the user knows that another program changed it.
-    pub reported_change: bool,
+    /// What another program left there that was told to the user already.
+    pub reported: Option<DiskStamp>,
 }
 
 impl OpenDocument {
@@ -52,11 +52,11 @@ impl OpenDocument {
 
 impl OpenFile {
     pub fn untitled(title: &str) -> Self {
-        Self { path: None, title: title.to_owned(), stamp: None, reported_change: false }
+        Self { path: None, title: title.to_owned(), stamp: None, reported: None }
     }
 
     pub fn at(path: &Path, stamp: Option<DiskStamp>) -> Self {
         let title = escaped(&path.file_name().unwrap_or(path.as_os_str()).to_string_lossy());
-        Self { path: Some(path.to_owned()), title, stamp, reported_change: false }
+        Self { path: Some(path.to_owned()), title, stamp, reported: None }
     }
 }

@@ -149,7 +149,7 @@ mod tests {
                     }
                     DiffLine::Removed(text) => before.push(text),
                     DiffLine::Added(text) => after.push(text),
-                    DiffLine::Gap(_) => unreachable!(),
+                    DiffLine::Gap(_) => panic!("no gaps yet"),
                 }
             }
             assert_eq!((before, after), (old, new));

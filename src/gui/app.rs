@@ -39,7 +39,7 @@ pub struct Parts {
 
 /// The window's content.
 pub struct App {
-    session: Session,
+    pub(super) session: Session,
     shown: Option<Shown>,
     next_revision: u64,
     opened: u64,
