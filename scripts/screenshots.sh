@@ -32,6 +32,8 @@ window building '' 'build:room,build:rack;Ball radius=0.3;Cue ball=1,view_perspe
 window parts '' 'build:table,build:funnel;Place x=2;Place z=2,build:stairs;Place x=7.5;Place z=2,build:pegboard;Place x=2.5;Place z=8,build:container;Place x=7.5;Place z=7.5,build:orbit,select_none,view_perspective,maximize_view'
 window part-dialog '' 'build:room,select_none,rack'
 window handles thesis-appendix-2 'select:28100,tool_turn,maximize_view'
+window export drag 'export:sdf'
+window xml bounce 'show_xml,select:Ball'
 window accuracy thesis-appendix-2 'tab:accuracy,study'
 window tiles gas 'dt:1/10,step_forward*20,view_perspective,overlay:tiles,maximize_view'
 

@@ -24,7 +24,7 @@ pub struct EditArgs {
     /// Steps to take first, separated by commas, such as `dt:1/60,step_forward*30,select:5853`
     ///
     /// A step is a command of the menus by its id (`step_forward`, `next_event`, `view_top`; docs/scripts.md lists them
-    /// all), or select:NAME, overlay:ID, tab:problems, tab:accuracy, tab:events, dt:SECONDS, method:NAME, event:NUMBER (an
+    /// all), or select:NAME, overlay:ID, tab:problems, tab:accuracy, tab:events, tab:xml, dt:SECONDS, method:NAME, event:NUMBER (an
     /// event of the last Δt, from 0) or study. `*30` after it takes it 30 times. Each waits until the simulation has done
     /// the one before. A step that cannot be taken ends the program with exit code 2.
     #[arg(long = "do", value_name = "LIST", hide_short_help = true)]

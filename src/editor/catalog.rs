@@ -299,39 +299,6 @@ pub const COMMANDS: &[CommandInfo] = &[
     .session(SessionCommand::Travel(TravelCommand::GoToEnd))
     .keys(&[Shortcut::shift(Key::End)])
     .when(Session::can_go_to_end),
-    row(
-        Menu::Simulation,
-        2,
-        "add_bookmark",
-        "Add bookmark",
-        "Marks this moment on the timeline, to come back to it",
-    )
-    .session(SessionCommand::Travel(TravelCommand::AddBookmark))
-    .keys(&[Shortcut::plain(Key::Char('M'))])
-    .when(Session::can_run),
-    row(Menu::Simulation, 2, "next_bookmark", "Next bookmark", "Shows the next moment that is marked")
-        .session(SessionCommand::Travel(TravelCommand::NextBookmark))
-        .keys(&[Shortcut::plain(Key::Char(']'))])
-        .when(Session::can_go_to_next_bookmark),
-    row(
-        Menu::Simulation,
-        2,
-        "last_bookmark",
-        "Last bookmark",
-        "Shows the moment before this one that is marked",
-    )
-    .session(SessionCommand::Travel(TravelCommand::LastBookmark))
-    .keys(&[Shortcut::plain(Key::Char('['))])
-    .when(Session::can_go_to_last_bookmark),
-    row(
-        Menu::Simulation,
-        2,
-        "bring_back",
-        "Bring back the replaced future",
-        "Takes the last edit in the past out of the run: what was recorded before it comes after that moment again",
-    )
-    .session(SessionCommand::Travel(TravelCommand::BringBack))
-    .when(Session::can_bring_back),
     row(Menu::Simulation, 1, "step_forward_five", "Five steps forward", "Goes on by five Δt")
         .session(SessionCommand::StepForwardFive)
         .keys(&[Shortcut::shift(Key::Char('.'))])
@@ -346,6 +313,39 @@ pub const COMMANDS: &[CommandInfo] = &[
     row(Menu::Simulation, 2, "slower", "Slower", "Halves the speed of playing")
         .session(SessionCommand::Slower)
         .keys(&[Shortcut::plain(Key::Char('-'))]),
+    row(
+        Menu::Simulation,
+        3,
+        "add_bookmark",
+        "Add bookmark",
+        "Marks this moment on the timeline, to come back to it",
+    )
+    .session(SessionCommand::Travel(TravelCommand::AddBookmark))
+    .keys(&[Shortcut::plain(Key::Char('K'))])
+    .when(Session::can_run),
+    row(Menu::Simulation, 3, "next_bookmark", "Next bookmark", "Shows the next moment that is marked")
+        .session(SessionCommand::Travel(TravelCommand::NextBookmark))
+        .keys(&[Shortcut::plain(Key::Char(']'))])
+        .when(Session::can_go_to_next_bookmark),
+    row(
+        Menu::Simulation,
+        3,
+        "last_bookmark",
+        "Last bookmark",
+        "Shows the moment before this one that is marked",
+    )
+    .session(SessionCommand::Travel(TravelCommand::LastBookmark))
+    .keys(&[Shortcut::plain(Key::Char('['))])
+    .when(Session::can_go_to_last_bookmark),
+    row(
+        Menu::Simulation,
+        3,
+        "bring_back",
+        "Bring back the replaced future",
+        "Takes the last edit in the past out of the run: what was recorded before it comes after that moment again",
+    )
+    .session(SessionCommand::Travel(TravelCommand::BringBack))
+    .when(Session::can_bring_back),
     //
     row(
         Menu::View,
@@ -457,6 +457,15 @@ pub const COMMANDS: &[CommandInfo] = &[
     .keys(&[Shortcut::plain(Key::Char('L'))]),
     row(Menu::View, 5, "show_accuracy", "Accuracy", "Shows speed against error of every method")
         .window(WindowCommand::ShowAccuracy),
+    row(
+        Menu::View,
+        5,
+        "show_xml",
+        "XML text",
+        "Shows the file as it would be saved, with what is selected marked",
+    )
+    .window(WindowCommand::ShowXml)
+    .keys(&[Shortcut::ctrl('U')]),
     row(Menu::View, 5, "reset_layout", "Reset the panels", "Puts all panels where they are in a new window")
         .window(WindowCommand::ResetLayout),
     row(Menu::View, 5, "switch_colors", "Dark or light colours", "Switches the colours of the window")

@@ -119,6 +119,8 @@ pub enum ViewCommand {
 pub enum WindowCommand {
     /// Shows the panel that compares speed and errors of the methods.
     ShowAccuracy,
+    /// Shows the panel with the text of the scene's file.
+    ShowXml,
     SwitchColors,
     /// All panels where they are in a new window.
     ResetLayout,

@@ -28,6 +28,8 @@ pub enum Question {
     UnsavedChanges { title: String, then: Intent },
     /// The file changed since it was read or written, and saving would lose that.
     ChangedOnDisk { path: PathBuf, then: Option<Intent> },
+    /// Another program changed the file.
+    Reload { title: String, changes: Vec<String>, unsaved: bool },
     /// A file of another program has what cannot be here.
     CannotImport { path: PathBuf, problem: String, more: usize },
     /// An earlier run ended with unsaved work.
@@ -43,6 +45,7 @@ pub enum Answer {
     Restore,
     Later,
     LeaveOut,
+    Reload,
     Cancel,
 }
 
@@ -72,6 +75,7 @@ impl Question {
         match self {
             Self::UnsavedChanges { .. } => "Unsaved changes",
             Self::ChangedOnDisk { .. } => "File changed on disk",
+            Self::Reload { .. } => "Read the file again?",
             Self::CannotImport { .. } => "Not all can be imported",
             Self::Recover(_) => "Recover unsaved work",
         }
@@ -85,6 +89,15 @@ impl Question {
                  is there now.",
                 shown_path(path)
             ),
+            Self::Reload { title, changes, unsaved } => {
+                let what = changes.iter().map(|change| format!("\n• {change}")).collect::<String>();
+                let unsaved = if *unsaved {
+                    "\nYour changes that are not saved go; Undo brings them back."
+                } else {
+                    ""
+                };
+                format!("Another program changed {title} on the disk:{what}{unsaved}")
+            }
             Self::CannotImport { path, problem, more } => {
                 let others = match more {
                     0 => String::new(),
@@ -107,6 +120,8 @@ impl Question {
         match self {
             Self::UnsavedChanges { .. } => &[Answer::Save, Answer::Discard, Answer::Cancel],
             Self::ChangedOnDisk { .. } => &[Answer::SaveAs, Answer::Overwrite, Answer::Cancel],
+            Self::Reload { unsaved: false, .. } => &[Answer::Reload, Answer::Later],
+            Self::Reload { unsaved: true, .. } => &[Answer::Later, Answer::Reload],
             Self::CannotImport { .. } => &[Answer::Cancel, Answer::LeaveOut],
             Self::Recover(_) => &[Answer::Restore, Answer::Later, Answer::Discard],
         }
@@ -118,7 +133,7 @@ impl Question {
             Self::UnsavedChanges { .. } | Self::ChangedOnDisk { .. } | Self::CannotImport { .. } => {
                 Answer::Cancel
             }
-            Self::Recover(_) => Answer::Later,
+            Self::Recover(_) | Self::Reload { .. } => Answer::Later,
         }
     }
 }
@@ -133,6 +148,7 @@ impl Answer {
             Self::Restore => "Restore",
             Self::Later => "Ask later",
             Self::LeaveOut => "Open without it",
+            Self::Reload => "Read it again",
             Self::Cancel => "Cancel",
         }
     }

@@ -34,6 +34,7 @@ impl Session {
             (Some(Question::UnsavedChanges { then, .. }), Answer::Discard) => self.carry_on(then),
             (Some(Question::ChangedOnDisk { path, then }), Answer::Overwrite) => self.write(&path, then),
             (Some(Question::ChangedOnDisk { then, .. }), Answer::SaveAs) => self.save_as(then),
+            (Some(Question::Reload { .. }), Answer::Reload) => self.reload(),
             (Some(Question::CannotImport { path, .. }), Answer::LeaveOut) => {
                 self.carry_on(Intent::ImportWithout(path));
             }
@@ -57,11 +58,7 @@ impl Session {
                 }
                 None => self.talk.notices.push(Notice::error("There is no such sample")),
             },
-            Intent::Reload => {
-                if let Some(path) = self.doc.file.path.clone() {
-                    self.open(path);
-                }
-            }
+            Intent::Reload => self.reload(),
             Intent::ImportWithout(path) => self.open_foreign(&path, &Document::open(&path), true),
             Intent::Restore(found) => self.restore(&found),
             Intent::Quit => {
@@ -73,7 +70,7 @@ impl Session {
 
     /// Opens a file. One that cannot be read leaves everything as it was; one with errors is shown with
     /// them.
-    fn open(&mut self, path: PathBuf) {
+    pub(super) fn open(&mut self, path: PathBuf) {
         let path = std::path::absolute(&path).unwrap_or(path);
         let stamp = match readable(&path) {
             Ok(stamp) => stamp,
@@ -122,6 +119,7 @@ impl Session {
             None => OpenFile::untitled(found.title()),
         };
         self.replace(Document::from_bytes(&bytes), file, false);
+        self.doc.saved = found.path.as_deref().map(Document::open);
         // the old copy goes only when this run has its own
         match self.write_recovery() {
             Ok(()) => found.forget(),
@@ -143,6 +141,7 @@ impl Session {
         self.travel = Travel::default();
         self.run.shown_event = None;
         self.talk.after_save = None;
+        self.claim_file();
         self.sync();
     }
 
@@ -183,26 +182,14 @@ impl Session {
             return self.talk.notices.push(Notice::error(text));
         }
         self.doc.history.mark_saved();
+        self.doc.saved = Some(self.document().clone());
         self.doc.file = OpenFile::at(path, DiskStamp::of(path).ok());
         self.forget_recovery();
         self.remember(path);
+        self.claim_file();
         self.talk.notices.push(Notice::info(format!("Saved {}", self.doc.file.title)));
         if let Some(intent) = then {
             self.carry_on(intent);
-        }
-    }
-
-    /// Tells when another program changed or removed the file.
-    pub(super) fn look_at_disk(&mut self) {
-        let (Some(path), Some(stamp)) = (&self.doc.file.path, self.doc.file.stamp) else { return };
-        if !path.exists() {
-            self.talk.notices.push(Notice::warning(format!("{} is gone from the disk", self.doc.file.title)));
-            self.doc.history.mark_unsaved();
-            self.doc.file.stamp = None;
-        } else if has_changed(path, stamp) && !self.doc.file.reported_change {
-            self.doc.file.reported_change = true;
-            let text = format!("{} changed on the disk. File ▸ Reload reads it again.", self.doc.file.title);
-            self.talk.notices.push(Notice::warning(text));
         }
     }
 

@@ -11,6 +11,8 @@ use crate::scene::{Document, escaped};
 pub(super) struct OpenDocument {
     pub history: History,
     pub file: OpenFile,
+    /// The document as its file holds it, if it has one.
+    pub saved: Option<Document>,
     /// Grows with every document that replaces another.
     pub opened: u64,
     /// The copies made last.
@@ -25,14 +27,15 @@ pub(super) struct OpenFile {
     pub title: String,
     /// What the file held when it was read or written.
     pub stamp: Option<DiskStamp>,
-    /// Whether the user knows that another program changed it.
-    pub reported_change: bool,
+    /// What another program left there that was told to the user already.
+    pub reported: Option<DiskStamp>,
 }
 
 impl OpenDocument {
     /// `saved` says whether the document is what its file holds.
     pub fn new(document: Document, file: OpenFile, saved: bool) -> Self {
         Self {
+            saved: saved.then(|| document.clone()),
             history: History::new(document, saved),
             file,
             opened: 0,
@@ -49,11 +52,11 @@ impl OpenDocument {
 
 impl OpenFile {
     pub fn untitled(title: &str) -> Self {
-        Self { path: None, title: title.to_owned(), stamp: None, reported_change: false }
+        Self { path: None, title: title.to_owned(), stamp: None, reported: None }
     }
 
     pub fn at(path: &Path, stamp: Option<DiskStamp>) -> Self {
         let title = escaped(&path.file_name().unwrap_or(path.as_os_str()).to_string_lossy());
-        Self { path: Some(path.to_owned()), title, stamp, reported_change: false }
+        Self { path: Some(path.to_owned()), title, stamp, reported: None }
     }
 }

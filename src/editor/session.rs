@@ -29,6 +29,11 @@ impl Session {
         self.doc.history.document()
     }
 
+    /// The document as its file holds it; `None` for one that was never saved.
+    pub fn saved_document(&self) -> Option<&Document> {
+        self.doc.saved.as_ref()
+    }
+
     /// What the document means; `None` while it has errors that leave no scene.
     pub fn scene(&self) -> Option<&Scene> {
         self.document().scene()

@@ -12,6 +12,7 @@ impl Session {
     /// recovery file up to date.
     pub fn poll(&mut self, now: Instant) {
         self.run.look(now, &mut self.talk);
+        self.follow_disk();
         if self.run.has_settled(self.doc.history.state(), now) {
             self.sync();
         }

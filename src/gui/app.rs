@@ -21,6 +21,7 @@ use super::toasts::Toasts;
 use super::transport::Transport;
 use super::tree::Tree;
 use super::viewport::{self, Canvas, Views};
+use super::xml::XmlPane;
 use super::{menu, shortcuts, start, status, theme};
 use crate::design::TOOLS;
 use crate::editor::{
@@ -40,7 +41,7 @@ pub struct Parts {
 
 /// The window's content.
 pub struct App {
-    session: Session,
+    pub(super) session: Session,
     shown: Option<Shown>,
     next_revision: u64,
     opened: u64,
@@ -53,6 +54,7 @@ pub struct App {
     ledger: LedgerPanel,
     pub(super) problems: Problems,
     pub(super) accuracy: Accuracy,
+    xml: XmlPane,
     pub(super) dialogs: Dialogs,
     toasts: Toasts,
     dock: Dock,
@@ -77,8 +79,8 @@ struct Remembered {
 
 const STORAGE_KEY: &str = "polyscene layout";
 
-/// What diagrams need to be read, points.
-const ACCURACY_HEIGHT: f32 = 330.0;
+/// What diagrams and texts need to be read, points.
+const TALL: f32 = 330.0;
 
 /// Size below which panels no longer have the room they want, points.
 pub(super) const TIGHT: [f32; 2] = [800.0, 500.0];
@@ -112,6 +114,7 @@ impl App {
             ledger: LedgerPanel::default(),
             problems: Problems::default(),
             accuracy: Accuracy::default(),
+            xml: XmlPane::default(),
             dialogs: Dialogs::new(parts.files),
             toasts,
             dock: Dock::new(remembered.panels),
@@ -240,6 +243,7 @@ impl App {
             ledger: &mut self.ledger,
             problems: &mut self.problems,
             accuracy: &mut self.accuracy,
+            xml: &mut self.xml,
             views: &mut self.views,
             area: None,
         };
@@ -332,10 +336,8 @@ impl App {
                 let dark = ctx.theme() == egui::Theme::Dark;
                 ctx.set_theme(if dark { egui::Theme::Light } else { egui::Theme::Dark });
             }
-            WindowCommand::ShowAccuracy => {
-                self.dock.bring_to_front(Panel::Accuracy);
-                self.dock.give_height(Panel::Accuracy, ACCURACY_HEIGHT);
-            }
+            WindowCommand::ShowAccuracy => self.dock.show_tall(Panel::Accuracy, TALL),
+            WindowCommand::ShowXml => self.dock.show_tall(Panel::Xml, TALL),
             WindowCommand::ResetLayout => self.dock.reset(),
             WindowCommand::DesignTool(index) => return self.use_tool(index),
             WindowCommand::Find => {
@@ -417,6 +419,7 @@ struct Contents<'a> {
     ledger: &'a mut LedgerPanel,
     problems: &'a mut Problems,
     accuracy: &'a mut Accuracy,
+    xml: &'a mut XmlPane,
     views: &'a mut Views,
     /// Around the views shown so far.
     area: Option<egui::Rect>,
@@ -431,6 +434,7 @@ impl dock::Contents for Contents<'_> {
             Panel::Problems => self.problems.title(),
             Panel::Accuracy if self.accuracy.is_running() => "Accuracy (running)".to_owned(),
             Panel::Accuracy => "Accuracy".to_owned(),
+            Panel::Xml => "XML".to_owned(),
             Panel::View(index) => self.views.title(index).to_owned(),
         }
     }
@@ -448,6 +452,7 @@ impl dock::Contents for Contents<'_> {
             Panel::Events => framed(ui, &mut |ui| self.ledger.show(ui, self.context)),
             Panel::Problems => framed(ui, &mut |ui| self.problems.show(ui, self.context)),
             Panel::Accuracy => framed(ui, &mut |ui| self.accuracy.show(ui, self.context)),
+            Panel::Xml => framed(ui, &mut |ui| self.xml.show(ui, self.context)),
             Panel::View(index) => {
                 let rect = ui.max_rect();
                 self.area = Some(self.area.map_or(rect, |area| area.union(rect)));

@@ -14,17 +14,19 @@ pub enum Panel {
     Events,
     Problems,
     Accuracy,
+    Xml,
     /// The n-th view.
     View(usize),
 }
 
 impl Panel {
-    const ALL: [Self; 9] = [
+    const ALL: [Self; 10] = [
         Self::Tree,
         Self::Inspector,
         Self::Events,
         Self::Problems,
         Self::Accuracy,
+        Self::Xml,
         Self::View(0),
         Self::View(1),
         Self::View(2),
@@ -81,6 +83,12 @@ impl Dock {
     /// Brings a panel to the front of those it lies behind.
     pub fn bring_to_front(&mut self, panel: Panel) {
         self.tree.make_active(|_, tile| matches!(tile, egui_tiles::Tile::Pane(found) if *found == panel));
+    }
+
+    /// Both of the next two.
+    pub fn show_tall(&mut self, panel: Panel, height: f32) {
+        self.bring_to_front(panel);
+        self.give_height(panel, height);
     }
 
     /// Gives the row of a column that holds a panel at least a height, at the cost of the row with the views:
@@ -196,7 +204,7 @@ fn usual() -> Tree<Panel> {
     };
     let views: [TileId; 4] = std::array::from_fn(|index| tabbed(&mut tiles, &[Panel::View(index)]));
     let views = tiles.insert_grid_tile(views.to_vec());
-    let lists = tabbed(&mut tiles, &[Panel::Events, Panel::Problems, Panel::Accuracy]);
+    let lists = tabbed(&mut tiles, &[Panel::Events, Panel::Problems, Panel::Accuracy, Panel::Xml]);
     let middle =
         linear(&mut tiles, LinearDir::Vertical, WHOLE.y, &[(views, None), (lists, Some(LISTS_HEIGHT))]);
     let tree = tabbed(&mut tiles, &[Panel::Tree]);

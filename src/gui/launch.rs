@@ -107,6 +107,8 @@ pub fn run(options: Options) -> Result<Report, GuiError> {
         let files = Box::new(NativeFileDialogs::default());
         let mut app = App::new(cc, Parts { runner: Box::new(runner), storage, files, scene });
         app.script = Some(script);
+        let ctx = cc.egui_ctx.clone();
+        app.session.watch_disk(move || ctx.request_repaint());
         app.forgetful = scripted;
         Ok(Box::new(app) as Box<dyn eframe::App>)
     };

@@ -28,6 +28,7 @@ mod transport;
 mod tree;
 mod viewport;
 mod widgets;
+mod xml;
 
 pub use app::{App, Parts};
 pub use dialogs::{FileAnswer, FileDialogs, FileRequest, NoFileDialogs};

@@ -49,6 +49,7 @@ fn step(text: &str) -> Option<Step> {
             "method" => Some(Step::Method(Method::from_name(value)?)),
             "event" => Some(Step::Event(value.parse().ok()?)),
             "tab" if value == "problems" => Some(Step::Panel(Panel::Problems)),
+            "tab" if value == "xml" => Some(Step::Panel(Panel::Xml)),
             "tab" if value == "accuracy" => Some(Step::Panel(Panel::Accuracy)),
             "tab" if value == "events" => Some(Step::Panel(Panel::Events)),
             "overlay" => {

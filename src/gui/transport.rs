@@ -52,7 +52,10 @@ const WIDE: f32 = 1290.0;
 /// Below this, points, what the menus Edit and Add have too would lie over the speed and what is said beside it.
 const NARROW: f32 = 1220.0;
 
-/// Keeps what is being typed into Δt.
+/// Below this, points, the time is in the status bar alone, and goals are in the menu Simulation.
+const TIGHT: f32 = 960.0;
+
+/// Keeps what is being typed into Δt and the time.
 #[derive(Default)]
 pub struct Transport {
     dt_text: String,
@@ -66,14 +69,17 @@ impl Transport {
         // the scene's time speed is in the inspector too
         let wide = ui.available_width() > WIDE;
         let narrow = ui.available_width() < NARROW;
+        let tight = ui.available_width() < TIGHT;
         ui.horizontal_centered(|ui| {
             ui.spacing_mut().item_spacing.x = 3.0;
             for command in TRANSPORT {
                 command_button(ui, context, command);
             }
-            ui.add_space(6.0);
-            self.time_field(ui, context);
-            run_menu(ui, context);
+            if !tight {
+                ui.add_space(6.0);
+                self.time_field(ui, context);
+                run_menu(ui, context);
+            }
             ui.add_space(6.0);
             self.dt_field(ui, context);
             ui.add_space(6.0);

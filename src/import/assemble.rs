@@ -74,7 +74,7 @@ fn angles(turn: DMat3) -> DVec3 {
     let beta = libm::atan2(z.x, level);
     // At β = ±90° only one angle is left of the other two.
     let (alpha, gamma) = if level < 1e-9 {
-        (libm::atan2(x.z, y.z), 0.0)
+        (libm::atan2(y.z, y.y), 0.0)
     } else {
         (libm::atan2(-z.y, z.z), libm::atan2(-y.x, x.x))
     };

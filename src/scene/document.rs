@@ -12,7 +12,7 @@ use super::locate::Index;
 use super::read::{self, Meaning};
 use super::rules::MAX_FILE_BYTES;
 use super::source::{Source, position_in};
-use super::tree::{Child, Children, View, tag};
+use super::tree::{Child, Children, Keys, View, tag};
 use super::viewpoint::{self, Viewpoint};
 use super::{Diagnostic, NodeKey, NumberStyle, Scene, Severity, locate, parse, save, shown, write};
 
@@ -45,6 +45,11 @@ impl Document {
 
     /// Reads a file's bytes, whatever they are. Never panics; every problem becomes a [`Diagnostic`].
     pub fn from_bytes(bytes: &[u8]) -> Self {
+        Self::from_bytes_with_keys(bytes, Arc::new(Keys::starting_at(1)))
+    }
+
+    /// As [`Self::from_bytes`], with keys that another document has not used.
+    pub(super) fn from_bytes_with_keys(bytes: &[u8], keys: Arc<Keys>) -> Self {
         if bytes.len() as u64 > MAX_FILE_BYTES {
             let message = format!("the file is larger than {} MiB", MAX_FILE_BYTES / (1024 * 1024));
             return Self::broken(&[], unreadable(message, "divide the scene"));
@@ -59,7 +64,7 @@ impl Document {
                 );
             }
         };
-        let source = Source::new(decoded.text, decoded.encoding, decoded.contradiction);
+        let source = Source::new(decoded.text, decoded.encoding, decoded.contradiction, keys);
         match parse::document(&source.text, &source.keys) {
             Ok(tree) => Self::of_tree(Arc::new(source), tree),
             Err(fault) => {
@@ -195,7 +200,7 @@ impl Document {
         let encoding = Encoding { bom: false, form: Form::Utf8 };
         let meaning = Meaning { diagnostics: vec![diagnostic], ..Meaning::default() };
         Self {
-            source: Arc::new(Source::new(String::new(), encoding, None)),
+            source: Arc::new(Source::new(String::new(), encoding, None, Arc::new(Keys::starting_at(1)))),
             content: Content::Broken(bytes.into()),
             meaning: OnceLock::from(Arc::new(meaning)),
             index: OnceLock::new(),
@@ -204,7 +209,7 @@ impl Document {
 }
 
 /// A file's bytes, one more than the limit at most.
-fn read_file(path: &Path) -> io::Result<Vec<u8>> {
+pub(super) fn read_file(path: &Path) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     File::open(path)?.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes)?;
     Ok(bytes)

@@ -14,6 +14,7 @@ mod number;
 mod params;
 mod parse;
 mod read;
+mod reread;
 mod rules;
 mod save;
 mod schema;

@@ -1,7 +1,7 @@
 //! What a document and all its later versions share: the text it was read from, how that becomes bytes,
 //! and where things are in it.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use super::edit::Style;
 use super::encoding::Encoding;
@@ -14,7 +14,7 @@ pub(super) struct Source {
     pub encoding: Encoding,
     /// The declaration names another encoding.
     pub contradiction: Option<String>,
-    pub keys: Keys,
+    pub keys: Arc<Keys>,
     checkpoints: OnceLock<Vec<Checkpoint>>,
     style: OnceLock<Style>,
 }
@@ -31,8 +31,8 @@ struct Checkpoint {
 const CHECKPOINT_BYTES: usize = 1024;
 
 impl Source {
-    pub fn new(text: String, encoding: Encoding, contradiction: Option<String>) -> Self {
-        let (keys, checkpoints, style) = (Keys::starting_at(1), OnceLock::new(), OnceLock::new());
+    pub fn new(text: String, encoding: Encoding, contradiction: Option<String>, keys: Arc<Keys>) -> Self {
+        let (checkpoints, style) = (OnceLock::new(), OnceLock::new());
         Self { text, encoding, contradiction, keys, checkpoints, style }
     }
 

@@ -82,6 +82,13 @@ impl Bench {
         bench
     }
 
+    /// Another session with the same storage, in a folder of its own for files.
+    pub fn second_window(&self) -> Self {
+        let runner = FakeRunner::default();
+        let session = Session::with_storage(Box::new(runner.clone()), storage(self.folder.path()));
+        Self { session, runner, now: Instant::now(), folder: tempfile::tempdir().unwrap() }
+    }
+
     /// A session with [`SCENE`] open from a file.
     pub fn open() -> Self {
         let mut bench = Self::new();

@@ -100,11 +100,11 @@ fn bookmarks_are_set_gone_to_and_removed() {
     type_time(&mut window, "3");
     window.key(Key::Home);
     window.key(Key::N);
-    window.key(Key::M);
+    window.key(Key::K);
     let at = window.frame().time;
     assert!(window.has("Bookmark 1: event 1"));
     type_time(&mut window, "2");
-    window.key(Key::M);
+    window.key(Key::K);
     window.key(Key::Home);
     window.key(Key::CloseBracket);
     assert_eq!((window.frame().time, window.frame().event_count), (at, 1));

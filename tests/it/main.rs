@@ -21,6 +21,8 @@ mod design_tools;
 mod editor_building;
 // The command table: unique names and keys, reasons for what is disabled.
 mod editor_commands;
+// Killed while editing and saving, and a full disk.
+mod editor_crash;
 // Opening, saving, samples and the guards against losing or overwriting work.
 mod editor_files;
 // What an edit means for a simulation that runs.
@@ -33,6 +35,8 @@ mod editor_random;
 mod editor_random_drags;
 // Unsaved work outlives a crash.
 mod editor_recovery;
+// Other programs and windows on the open file.
+mod editor_reload;
 // A session with a runner that writes down what it is told.
 mod editor_support;
 // Undo: one point per gesture, the document alone.
@@ -43,6 +47,8 @@ mod everyday;
 mod everyday_verb;
 // Scenes for other programs: every sample in every format, reports, names, axes.
 mod export;
+// Spoiled bytes for every reader.
+mod fuzz;
 // The Accuracy panel: a study on its thread, its figures and files, and that it rests.
 mod gui_accuracy;
 // The error badge: what it says, and that a click goes to the event it names.
@@ -71,6 +77,8 @@ mod gui_real;
 mod gui_support;
 // The timeline, the ledger, bookmarks.
 mod gui_timeline;
+// The text of the file beside the picture.
+mod gui_xml;
 // The window as a whole: selecting, stepping, events, overlays, problems, shortcuts, rest.
 mod gui_window;
 // What the window says back: refusals, Escape, snapping, markers, names.

@@ -13,7 +13,7 @@ pub enum HelpPage {
     About,
 }
 
-const WINDOW: [(&str, &str); 8] = [
+const WINDOW: [(&str, &str); 9] = [
     (
         "Scene",
         "Map, simulation, forces and bodies. Click selects, Ctrl adds, Shift takes a range; double click renames. The eye hides, the lock protects.",
@@ -41,6 +41,10 @@ const WINDOW: [(&str, &str); 8] = [
     (
         "Events",
         "The collisions of the last Δt. A click shows the place in all views, a double click goes there.",
+    ),
+    (
+        "XML",
+        "The file as it would be saved, with what is selected marked; a click selects. When another program saves the file, its changes are listed and taken over without stopping what runs.",
     ),
     (
         "Problems",

@@ -13,7 +13,7 @@ use crate::gui::context::AppContext;
 use crate::gui::numbers::significant;
 use crate::record::Frame;
 
-pub(super) const HEIGHT: f32 = 44.0;
+pub(super) const HEIGHT: f32 = 38.0;
 
 /// Room for what is written at the right, points.
 const RIGHT: f32 = 104.0;

@@ -1,0 +1,136 @@
+//! Readers against bytes that somebody spoiled: scenes, MJCF, SDF. No panic, and an answer within a second.
+//! `POLYSCENE_FUZZ=1000000` says how many files, `POLYSCENE_FUZZ_SEED` which ones.
+
+use std::time::{Duration, Instant};
+
+use polyscene::import::import;
+use polyscene::random::Random;
+use polyscene::scene::Document;
+
+/// Files in the tests: some seconds.
+const FILES: usize = 4000;
+
+const LONGEST: Duration = Duration::from_secs(1);
+
+const SEEDS: [&str; 6] = [
+    include_str!("../../scenes/foreign/balls.mjcf.xml"),
+    include_str!("../../scenes/foreign/ball.sdf"),
+    include_str!("../../scenes/drag.xml"),
+    include_str!("../../scenes/thesis-appendix-2.xml"),
+    super::editor_support::SCENE,
+    "<mujoco><default><default class=\"a\"><geom size=\"1\"/></default></default><worldbody><body childclass=\"a\"><freejoint/><geom/></body></worldbody></mujoco>",
+];
+
+/// Pieces that readers stumble over.
+const WORDS: [&str; 28] = [
+    "<!--",
+    "-->",
+    "<![CDATA[",
+    "]]>",
+    "<?",
+    "?>",
+    "<!DOCTYPE a [<!ENTITY b \"c\">]>",
+    "&lt;",
+    "&#0;",
+    "&b;",
+    "\"",
+    "'",
+    "/>",
+    "</",
+    "1e308",
+    "-1e308",
+    "nan",
+    "inf",
+    "1e-320",
+    "0",
+    "-1",
+    "99999999999999999999",
+    "1,5",
+    " ",
+    "\0",
+    "\u{feff}",
+    "\u{202e}",
+    "xmlns:a=\"b\"",
+];
+
+fn spoil(bytes: &mut Vec<u8>, random: &mut Random) {
+    let at = random.below(bytes.len() + 1);
+    let end = (at + 1 + random.below(40)).min(bytes.len());
+    match random.below(9) {
+        0 if at < bytes.len() => bytes[at] ^= 1 << random.below(8),
+        1 if at < bytes.len() => bytes[at] = random.below(256) as u8,
+        2 if at < end => drop(bytes.drain(at..end)),
+        3 if at < end => {
+            let piece = bytes[at..end].to_vec();
+            let to = random.below(bytes.len() + 1);
+            bytes.splice(to..to, piece);
+        }
+        4 => bytes.truncate(at),
+        5 if at < end => {
+            let piece = bytes[at..end].to_vec();
+            let many = 1 + random.below(200);
+            bytes.splice(at..at, piece.repeat(many));
+        }
+        6 => {
+            let other = SEEDS[random.below(SEEDS.len())].as_bytes();
+            let from = random.below(other.len());
+            let to = (from + random.below(300)).min(other.len());
+            bytes.splice(at..at, other[from..to].iter().copied());
+        }
+        7 => {
+            // A number of the file becomes another.
+            let digit = bytes[at.min(bytes.len())..].iter().position(u8::is_ascii_digit);
+            if let Some(digit) = digit {
+                let word = WORDS[14 + random.below(9)].bytes();
+                bytes.splice(at + digit..=at + digit, word);
+            }
+        }
+        _ => drop(bytes.splice(at..at, WORDS[random.below(WORDS.len())].bytes())),
+    }
+}
+
+#[test]
+fn spoiled_files_are_read_or_refused_in_time() {
+    let number =
+        |name: &str, usual| std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(usual);
+    let (files, seed) = (number("POLYSCENE_FUZZ", FILES), number("POLYSCENE_FUZZ_SEED", 1));
+    let mut read = [0_usize; 3];
+    let mut longest = Duration::ZERO;
+    for file in 0..files {
+        let mut random = Random::new((seed as u64).wrapping_mul(1 << 32) + file as u64);
+        let mut bytes = SEEDS[random.below(SEEDS.len())].as_bytes().to_vec();
+        for _ in 0..=random.below(6) {
+            spoil(&mut bytes, &mut random);
+        }
+        let started = Instant::now();
+        let outcome = std::panic::catch_unwind(|| {
+            let document = Document::from_bytes(&bytes);
+            let scene = document.scene().is_some() && !document.has_errors();
+            assert_eq!(document.to_bytes(), bytes);
+            document.foreign();
+            let strict = import(&document, false);
+            let lenient = import(&document, true);
+            assert!(strict.document.is_some() || !strict.problems.is_empty());
+            let back = lenient.document.map(|document| document.has_errors());
+            (scene, strict.document.is_some(), back)
+        });
+        longest = longest.max(started.elapsed());
+        match outcome {
+            Ok((scene, strict, lenient)) => {
+                assert_ne!(lenient, Some(true), "an import with errors: {}", String::from_utf8_lossy(&bytes));
+                read[0] += usize::from(scene);
+                read[1] += usize::from(strict);
+                read[2] += usize::from(lenient.is_some());
+            }
+            Err(_) => panic!("file {file} of seed {seed}:\n{}", String::from_utf8_lossy(&bytes)),
+        }
+        assert!(started.elapsed() < LONGEST, "file {file} of seed {seed} took {:?}", started.elapsed());
+    }
+    println!(
+        "{files} files: {} scenes, {} imports, {} with things left out; the longest {longest:?}",
+        read[0], read[1], read[2]
+    );
+    let memory = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    memory.lines().filter(|line| line.starts_with("VmHWM")).for_each(|line| println!("{line}"));
+    assert!(read.iter().all(|count| *count > 0), "mutations leave nothing whole: {read:?}");
+}
