@@ -10,10 +10,11 @@ use serde::{Deserialize, Serialize};
 use super::accuracy::Accuracy;
 use super::context::{AppContext, Message, Outbox, Shown};
 use super::dialogs::{Dialogs, FileDialogs, HelpPage};
-use super::dock::{self, Dock, Panel};
+use super::dock::{Dock, Panel};
 use super::inspector::Inspector;
 use super::launch::Script;
 use super::ledger::LedgerPanel;
+use super::panels::Contents;
 use super::problems::Problems;
 use super::status::Pace;
 use super::timeline::{self, Timeline};
@@ -407,73 +408,6 @@ fn context_of<'a>(
     ctx: &Context,
 ) -> AppContext<'a> {
     AppContext { session, shown, theme: viewport::theme_of(ctx), outbox }
-}
-
-/// The panels, for the layout to show.
-struct Contents<'a> {
-    context: &'a AppContext<'a>,
-    /// With what a dialog is about to make.
-    preview: &'a AppContext<'a>,
-    tree: &'a mut Tree,
-    inspector: &'a mut Inspector,
-    ledger: &'a mut LedgerPanel,
-    problems: &'a mut Problems,
-    accuracy: &'a mut Accuracy,
-    xml: &'a mut XmlPane,
-    views: &'a mut Views,
-    /// Around the views shown so far.
-    area: Option<egui::Rect>,
-}
-
-impl dock::Contents for Contents<'_> {
-    fn title(&self, panel: Panel) -> String {
-        match panel {
-            Panel::Tree => "Scene".to_owned(),
-            Panel::Inspector => "Inspector".to_owned(),
-            Panel::Events => LedgerPanel::title(self.context),
-            Panel::Problems => self.problems.title(),
-            Panel::Accuracy if self.accuracy.is_running() => "Accuracy (running)".to_owned(),
-            Panel::Accuracy => "Accuracy".to_owned(),
-            Panel::Xml => "XML".to_owned(),
-            Panel::View(index) => self.views.title(index).to_owned(),
-        }
-    }
-
-    fn show(&mut self, ui: &mut Ui, panel: Panel) -> bool {
-        let framed = |ui: &mut Ui, show: &mut dyn FnMut(&mut Ui)| {
-            egui::Frame::new().inner_margin(egui::Margin::symmetric(6, 2)).show(ui, |ui| {
-                show(ui);
-                ui.take_available_space();
-            });
-        };
-        match panel {
-            Panel::Tree => self.tree.show(ui, self.context),
-            Panel::Inspector => self.inspector.show(ui, self.context),
-            Panel::Events => framed(ui, &mut |ui| self.ledger.show(ui, self.context)),
-            Panel::Problems => framed(ui, &mut |ui| self.problems.show(ui, self.context)),
-            Panel::Accuracy => framed(ui, &mut |ui| self.accuracy.show(ui, self.context)),
-            Panel::Xml => framed(ui, &mut |ui| self.xml.show(ui, self.context)),
-            Panel::View(index) => {
-                let rect = ui.max_rect();
-                self.area = Some(self.area.map_or(rect, |area| area.union(rect)));
-                return self.views.show(ui, index, self.preview);
-            }
-        }
-        false
-    }
-
-    fn beside_tabs(&mut self, ui: &mut Ui, panel: Panel) {
-        if panel == Panel::Problems {
-            self.problems.show_beside_tab(ui, self.context);
-        }
-        if panel == Panel::Events && !self.context.session.frame().ledger.is_empty() {
-            let copy =
-                ui.small_button("Copy").on_hover_text("The rows listed as text with tabs, for a spreadsheet");
-            if copy.clicked() {
-                ui.ctx().copy_text(self.ledger.as_text(self.context));
-            }
-        }
-    }
 }
 
 impl eframe::App for App {

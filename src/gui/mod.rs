@@ -16,6 +16,7 @@ mod launch;
 mod ledger;
 mod menu;
 mod numbers;
+mod panels;
 mod problems;
 mod shortcuts;
 mod start;

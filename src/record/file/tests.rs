@@ -27,7 +27,9 @@ fn edited(method: Method) -> (Arc<Frame>, RecordingFile) {
     let scene = document.scene().unwrap().clone();
     let mut runner = runner(&document, method);
     let (ball, wall) = (runner.frame().bodies[0].key, scene.bodies.iter().find(|b| !b.is_dynamic()).unwrap());
-    let mut send = |command| drop(runner.send(command));
+    let mut send = |command| {
+        runner.send(command);
+    };
     send(RunCommand::Step { dt: DT, count: 7 });
     send(RunCommand::Edit(vec![SimEdit::Mass(ball, 3.25), SimEdit::Bounce(wall.key, 0.5)]));
     send(RunCommand::NextEvent { dt: DT, of: Of::All });
