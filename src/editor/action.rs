@@ -54,6 +54,8 @@ pub enum Action {
     OpenPath(PathBuf),
     /// The answer to [`super::Request::ChooseSavePath`].
     SaveTo(PathBuf),
+    /// The answer to [`super::Request::ChooseRecordingPath`].
+    SaveRecording(PathBuf),
     /// Where a scene for another program goes.
     WriteExport(PathBuf, ExportedFile),
     /// A file dialog was closed without an answer.

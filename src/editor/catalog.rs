@@ -42,6 +42,15 @@ pub const COMMANDS: &[CommandInfo] = &[
     .window(WindowCommand::Export(None))
     .keys(&[Shortcut::ctrl('E')])
     .when(Session::has_scene),
+    row(
+        Menu::File,
+        2,
+        "save_recording",
+        "Save recording…",
+        "Writes what makes this very run again, with edits and bookmarks, to send it to someone",
+    )
+    .session(SessionCommand::SaveRecording)
+    .when(Session::can_reset),
     row(Menu::File, 3, "quit", "Quit", "Leaves the application; asks first when something is not saved")
         .session(SessionCommand::Quit)
         .keys(&[Shortcut::ctrl('Q')]),

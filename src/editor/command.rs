@@ -22,6 +22,8 @@ pub enum SessionCommand {
     OpenRecent(usize),
     Save,
     SaveAs,
+    /// The run, for others to run it again.
+    SaveRecording,
     Reload,
     Quit,
 

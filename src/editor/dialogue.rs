@@ -59,6 +59,10 @@ pub enum Request {
         directory: Option<PathBuf>,
         file_name: String,
     },
+    /// Answered by [`super::Action::SaveRecording`] or [`super::Action::DialogCancelled`].
+    ChooseRecordingPath {
+        file_name: String,
+    },
     /// What became of a file of another program.
     ShowImport {
         title: String,

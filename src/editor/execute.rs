@@ -40,6 +40,7 @@ impl Session {
             Action::SetMethod(method) => self.set_method(method),
             Action::OpenPath(path) => self.ask_then(Intent::OpenPath(path)),
             Action::SaveTo(path) => self.save_to(path),
+            Action::SaveRecording(path) => self.save_recording(path),
             Action::WriteExport(path, file) => return self.write_export(&path, &file),
             Action::DialogCancelled => self.talk.after_save = None,
             Action::Answer(answer) => self.answer(answer),
@@ -72,6 +73,7 @@ impl Session {
             SessionCommand::OpenRecent(index) => return self.open_recent(index),
             SessionCommand::Save => self.save(None),
             SessionCommand::SaveAs => self.save_as(None),
+            SessionCommand::SaveRecording => self.ask_for_recording_path(),
             SessionCommand::Reload => self.ask_then(Intent::Reload),
             SessionCommand::Quit => self.ask_then(Intent::Quit),
 

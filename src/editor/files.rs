@@ -72,6 +72,9 @@ impl Session {
     /// them.
     pub(super) fn open(&mut self, path: PathBuf) {
         let path = std::path::absolute(&path).unwrap_or(path);
+        if path.extension().is_some_and(|extension| extension == "psrec") {
+            return self.open_recording(&path);
+        }
         let stamp = match readable(&path) {
             Ok(stamp) => stamp,
             Err(reason) => {

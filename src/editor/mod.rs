@@ -31,6 +31,7 @@ mod palette;
 mod path_text;
 mod playback;
 mod problems;
+mod recording;
 mod recovered;
 mod recovery;
 mod reloading;

@@ -7,8 +7,8 @@ use super::live::{Waiting, live_change, waits};
 use super::talk::Talk;
 use super::travel::Way;
 use super::{Notice, Playback};
-use crate::record::{EventRow, Frame, PathSpan, RunCommand, RunState, Runner};
-use crate::scene::{Diagnostic, Document, Scene, Touched};
+use crate::record::{EventRow, Frame, PathSpan, RunCommand, RunState, Runner, Written};
+use crate::scene::{Diagnostic, Document, Scene, Touched, shown_path};
 use crate::sim::Method;
 
 /// How long a drag must stand still until the simulation hears of it. Shorter would compile a scene for
@@ -35,6 +35,8 @@ pub(super) struct Run {
 
 pub(super) struct Running {
     pub scene: Arc<Scene>,
+    /// What was loaded.
+    pub document: Document,
     /// Whether it was changed since it was loaded, so that going back to its start is not enough.
     pub edited: bool,
     /// Changes of the document that this run cannot take.
@@ -57,7 +59,7 @@ impl Run {
         }
     }
 
-    fn send(&mut self, command: RunCommand) -> u64 {
+    pub fn send(&mut self, command: RunCommand) -> u64 {
         self.sent = self.runner.send(command);
         self.sent
     }
@@ -79,6 +81,11 @@ impl Run {
         }
         let frame = self.runner.frame();
         self.playback.look_at(&frame);
+        if frame.written != self.frame.written
+            && let Some(written) = &frame.written
+        {
+            talk.notices.push(report_written(written));
+        }
         if frame.fault != self.frame.fault {
             self.report_fault(&frame, talk);
         }
@@ -130,7 +137,7 @@ impl Run {
         let wanted = if document.has_errors() { None } else { document.scene_shared() };
         match (&mut self.running, wanted) {
             (None, None) => {}
-            (None, Some(scene)) => self.load(scene),
+            (None, Some(scene)) => self.load(document, scene),
             (Some(_), None) => {
                 if !self.playback.is_at_start() {
                     talk.notices.push(Notice::warning("The simulation was dropped: the scene has errors"));
@@ -140,9 +147,9 @@ impl Run {
             (Some(running), Some(scene)) if self.playback.is_at_start() => {
                 let other = running.edited || running.waiting.any();
                 if other || waits(&running.scene, &scene, &touched).any() {
-                    self.load(scene);
+                    self.load(document, scene);
                 } else {
-                    running.scene = scene;
+                    (running.scene, running.document) = (scene, document.clone());
                 }
             }
             (Some(running), Some(scene)) => {
@@ -161,9 +168,10 @@ impl Run {
         }
     }
 
-    fn load(&mut self, scene: Arc<Scene>) {
+    fn load(&mut self, document: &Document, scene: Arc<Scene>) {
         let command = self.send(RunCommand::Load(scene.clone()));
-        self.running = Some(Running { scene, edited: false, waiting: Waiting::default() });
+        self.running =
+            Some(Running { scene, document: document.clone(), edited: false, waiting: Waiting::default() });
         self.playback.sent(command, true);
         self.shown_event = None;
     }
@@ -190,7 +198,7 @@ impl Run {
         let Some(running) = &self.running else { return };
         if running.edited || running.waiting.any() {
             if let Some(scene) = document.scene_shared() {
-                self.load(scene);
+                self.load(document, scene);
             }
         } else {
             let command = self.send(RunCommand::Reset);
@@ -255,5 +263,13 @@ impl Run {
 
     pub fn pause(&mut self) {
         self.send(RunCommand::Pause);
+    }
+}
+
+fn report_written(written: &Written) -> Notice {
+    let path = shown_path(&written.path);
+    match &written.problem {
+        None => Notice::info(format!("Wrote {path}")),
+        Some(problem) => Notice::error(format!("{path} cannot be written: {problem}")),
     }
 }

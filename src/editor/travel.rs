@@ -28,6 +28,12 @@ impl Travel {
         &self.bookmarks
     }
 
+    /// In place of those there are.
+    pub(super) fn set_bookmarks(&mut self, mut bookmarks: Vec<Bookmark>) {
+        bookmarks.sort_by(|a, b| a.time.total_cmp(&b.time));
+        self.bookmarks = bookmarks;
+    }
+
     /// What playing goes over again and again, s.
     pub fn range(&self) -> Option<(f64, f64)> {
         self.range

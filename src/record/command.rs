@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::file::WriteRequest;
 use super::ledger::EventRow;
 use super::moment::Moment;
 use super::paths::PathSpan;
@@ -69,6 +70,8 @@ pub enum RunCommand {
     Edit(Vec<SimEdit>),
     /// Takes the last edit in the past back, with all that came after it: what it replaced is the future again.
     BringBack,
+    /// Writes the recording to a file; the next frame has what came of it.
+    Write(Box<WriteRequest>),
     /// Bytes that the recording may take.
     Budget(usize),
     /// How much of the bodies' ways frames have; none by default.

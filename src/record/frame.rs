@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::file::Written;
 use super::ledger::{EventRow, Ledger};
 use super::paths::{BodyPath, ImpactBody};
 use crate::scene::{Diagnostic, NodeKey};
@@ -122,6 +123,8 @@ pub struct Frame {
     pub revision: u64,
     /// Number of the last command that it knows of; 0 before the first.
     pub command: u64,
+    /// The recording that was written last; another one for each.
+    pub written: Option<Arc<Written>>,
     /// Whether the simulation stands at what is shown. Before, what was looked up is there: bodies and events; energy,
     /// momentum and contacts follow.
     pub is_settled: bool,

@@ -28,7 +28,9 @@ mod track;
 use std::sync::Arc;
 
 pub use command::{Goal, Of, RunCommand};
-pub use file::{Checkpoint, EditsAt, MOST_BYTES, NamedMoment, RecordingError, RecordingFile, Steps};
+pub use file::{
+    Checkpoint, EditsAt, MOST_BYTES, NamedMoment, RecordingError, RecordingFile, Steps, WriteRequest, Written,
+};
 pub use frame::{BodyFrame, Busiest, ContactFrame, Frame, Jump, Lag, LagCause, Recorded, RunState};
 pub use inline::InlineRunner;
 pub use ledger::{EventRow, Ledger};

@@ -31,6 +31,7 @@ pub(super) fn frame_of(recorder: &mut RunRecorder, revision: u64, command: u64, 
     let base = Frame {
         revision,
         command,
+        written: recorder.written.clone(),
         state: recorder.state(),
         method: recorder.method,
         problems: recorder.problems.clone(),

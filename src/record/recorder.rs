@@ -5,6 +5,7 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use super::command::{Goal, RunCommand};
+use super::file::{Written, write};
 use super::frame::RunState;
 use super::paths::PathSpan;
 use super::recording::BUDGET;
@@ -29,6 +30,8 @@ pub(super) struct RunRecorder {
     budget: usize,
     /// How much of the bodies' ways frames have.
     pub(super) paths: Option<PathSpan>,
+    /// The file that was written last.
+    pub(super) written: Option<Arc<Written>>,
 }
 
 impl Default for RunRecorder {
@@ -42,6 +45,7 @@ impl Default for RunRecorder {
             edits: Vec::new(),
             budget: BUDGET,
             paths: None,
+            written: None,
         }
     }
 }
@@ -196,6 +200,7 @@ impl RunRecorder {
             RunCommand::Show(moment) => run.go_to(moment),
             RunCommand::Edit(edits) => self.edits.extend(edits),
             RunCommand::BringBack => run.bring_back(),
+            RunCommand::Write(request) => self.written = Some(Arc::new(write(run, &request))),
             _ => {}
         }
         true

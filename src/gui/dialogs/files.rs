@@ -21,6 +21,10 @@ pub enum FileRequest {
         file: ExportedFile,
         file_name: String,
     },
+    /// The run, for others to run it again.
+    Recording {
+        file_name: String,
+    },
     /// Figures or diagrams of a study.
     Export {
         export: Export,
@@ -34,6 +38,7 @@ impl FileRequest {
         match self {
             Self::Open => Message::Do(Action::OpenPath(path)),
             Self::Save { .. } => Message::Do(Action::SaveTo(path)),
+            Self::Recording { .. } => Message::Do(Action::SaveRecording(path)),
             Self::ExportScene { file, .. } => Message::Do(Action::WriteExport(path, file.clone())),
             Self::Export { export, .. } => Message::Export(*export, path),
         }
@@ -42,8 +47,9 @@ impl FileRequest {
     /// Endings of the files that may be chosen.
     pub fn extensions(&self) -> Vec<&'static str> {
         match self {
-            Self::Open => vec!["xml", "mjcf", "sdf", "world"],
+            Self::Open => vec!["xml", "psrec", "mjcf", "sdf", "world"],
             Self::Save { .. } => vec!["xml"],
+            Self::Recording { .. } => vec!["psrec"],
             Self::ExportScene { file, .. } => vec![file.extension],
             Self::Export { export, .. } => vec![export.extension()],
         }
@@ -54,6 +60,7 @@ impl FileRequest {
         match self {
             Self::Open => "Open a scene",
             Self::Save { .. } => "Save the scene as",
+            Self::Recording { .. } => "Save the recording as",
             Self::ExportScene { .. } => "Export the scene as",
             Self::Export { .. } => "Export the study as",
         }
@@ -108,9 +115,9 @@ impl FileDialogs for NativeFileDialogs {
                 .add_filter(format!("*.{}", extensions.join(", *.")), &extensions);
             let chosen = match request {
                 FileRequest::Open => dialog.pick_file(),
-                FileRequest::Export { file_name, .. } | FileRequest::ExportScene { file_name, .. } => {
-                    dialog.set_file_name(file_name).save_file()
-                }
+                FileRequest::Export { file_name, .. }
+                | FileRequest::ExportScene { file_name, .. }
+                | FileRequest::Recording { file_name } => dialog.set_file_name(file_name).save_file(),
                 FileRequest::Save { directory, file_name } => {
                     let dialog = dialog.set_file_name(file_name);
                     match directory {

@@ -99,6 +99,9 @@ impl Dialogs {
                 return;
             }
             Request::ChooseOpenPath => FileRequest::Open,
+            Request::ChooseRecordingPath { file_name } => {
+                FileRequest::Recording { file_name: file_name.clone() }
+            }
             Request::ChooseSavePath { directory, file_name } => {
                 FileRequest::Save { directory: directory.clone(), file_name: file_name.clone() }
             }

@@ -35,9 +35,9 @@ impl PathDialog {
         let (folder, text) = match &request {
             FileRequest::Open => (beside, String::new()),
             FileRequest::Save { directory, file_name } => (directory.clone().or(beside), file_name.clone()),
-            FileRequest::Export { file_name, .. } | FileRequest::ExportScene { file_name, .. } => {
-                (beside, file_name.clone())
-            }
+            FileRequest::Export { file_name, .. }
+            | FileRequest::ExportScene { file_name, .. }
+            | FileRequest::Recording { file_name } => (beside, file_name.clone()),
         };
         let folder = folder.or_else(|| std::env::current_dir().ok()).unwrap_or_else(|| PathBuf::from("/"));
         let mut dialog = Self {

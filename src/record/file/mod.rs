@@ -6,7 +6,9 @@ mod script;
 #[cfg(test)]
 mod tests;
 
-pub(super) use script::file_of;
+pub(super) use script::{file_of, write};
+
+use std::path::PathBuf;
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -85,6 +87,23 @@ pub struct NamedMoment {
     pub time: f64,
     /// The event that it stands right at.
     pub event: Option<u64>,
+}
+
+/// A recording that is to be written.
+#[derive(Clone, Debug)]
+pub struct WriteRequest {
+    pub path: PathBuf,
+    /// Name of the scene's file, and the bytes that were loaded.
+    pub scene_name: String,
+    pub scene: Vec<u8>,
+    pub bookmarks: Vec<NamedMoment>,
+}
+
+/// What came of it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Written {
+    pub path: PathBuf,
+    pub problem: Option<String>,
 }
 
 /// Why a recording cannot be used.

@@ -1,11 +1,11 @@
 //! From a run to its file, and from the file to the commands that make the run again.
 
 use super::keys;
-use super::{Checkpoint, EditsAt, RecordingError, RecordingFile, Steps};
+use super::{Checkpoint, EditsAt, RecordingError, RecordingFile, Steps, WriteRequest, Written};
 use crate::record::command::{Goal, RunCommand};
 use crate::record::moment::Moment;
 use crate::record::run::Run;
-use crate::scene::Scene;
+use crate::scene::{Scene, write_atomically};
 
 /// States along the way that a file has at most.
 const MOST_CHECKPOINTS: usize = 2000;
@@ -24,6 +24,18 @@ pub(in crate::record) fn file_of(run: &Run, scene_name: &str, scene: &[u8]) -> R
         checkpoints: checkpoints(run),
         ..RecordingFile::new(scene_name, scene, method)
     }
+}
+
+/// Writes the recording of a run.
+pub(in crate::record) fn write(run: &Run, request: &WriteRequest) -> Written {
+    let file = RecordingFile {
+        bookmarks: request.bookmarks.clone(),
+        ..file_of(run, &request.scene_name, &request.scene)
+    };
+    let bytes = file.to_bytes().map_err(|error| error.to_string());
+    let written =
+        bytes.and_then(|bytes| write_atomically(&request.path, &bytes).map_err(|error| error.to_string()));
+    Written { path: request.path.clone(), problem: written.err() }
 }
 
 /// The keyframes, of very many some, and the end; only those with all edits of their moment.
