@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use super::label::describe;
 use super::{Gesture, Notice, Outcome, Session};
+use crate::record::as_start;
 use crate::scene::{BodyChange, Edit, ForceChange, NodeKey, Scene};
 
 impl Session {
@@ -143,11 +144,8 @@ impl Session {
         let there = body_keys(scene);
         let mut edits = Vec::new();
         for now in self.run.frame.bodies.iter().filter(|now| there.contains(&now.key)) {
-            edits.push(Edit::Body { key: now.key, change: BodyChange::Position(now.position) });
-            edits.push(Edit::Body { key: now.key, change: BodyChange::Velocity(now.velocity) });
-            if let Some(turn) = now.turn {
-                edits.extend(turn.changes().map(|change| Edit::Body { key: now.key, change }));
-            }
+            let changes = as_start(now.position, now.velocity, now.turn);
+            edits.extend(changes.map(|change| Edit::Body { key: now.key, change }));
         }
         let label = format!("Take state at {:.6} s as start", self.run.frame.time);
         let outcome = self.edit_as(&Edit::All(edits), None, Some(label));

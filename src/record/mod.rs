@@ -1,5 +1,6 @@
 //! Driving a simulation: commands in, published frames out, on this thread or on one of its own.
 
+mod as_start;
 mod command;
 mod drift;
 mod frame;
@@ -16,6 +17,7 @@ mod thread;
 
 use std::sync::Arc;
 
+pub use as_start::as_start;
 pub use command::RunCommand;
 pub use frame::{BodyFrame, Busiest, ContactFrame, EventRow, Frame, Jump, Lag, LagCause, RunState};
 pub use inline::InlineRunner;

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use crate::cli::CliError;
 use crate::cli::output::{self, is_stdout};
-use crate::scene::{BodyChange, Document, Edit, FileStamp, check_writable, shown_path};
+use crate::record::as_start;
+use crate::scene::{Document, Edit, FileStamp, check_writable, shown_path};
 use crate::sim::Simulation;
 
 /// Where the last state goes, and what was there before the run.
@@ -51,11 +52,8 @@ impl<'a> FinalScene<'a> {
 fn with_state_of(document: &Document, sim: &Simulation) -> Result<Document, CliError> {
     let changes = sim.dynamic_bodies().filter_map(|body| {
         let (key, state) = (sim.key(body), sim.state(body)?);
-        let turn = state.turn.map(|turn| turn.changes());
-        let moves = [BodyChange::Position(state.position), BodyChange::Velocity(state.velocity)];
-        Some(
-            moves.into_iter().chain(turn.into_iter().flatten()).map(move |change| Edit::Body { key, change }),
-        )
+        let changes = as_start(state.position, state.velocity, state.turn);
+        Some(changes.map(move |change| Edit::Body { key, change }))
     });
     let edited = document.apply(&Edit::All(changes.flatten().collect()));
     let edited = edited
