@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use super::label::describe;
 use super::{Gesture, Notice, Outcome, Session};
 use crate::scene::{BodyChange, Edit, ForceChange, NodeKey, Scene};
+use crate::sim::as_start;
 
 impl Session {
     /// Applies an edit. Edits of one gesture in a row make one undo point; an edit that changes nothing
@@ -157,11 +158,8 @@ impl Session {
         let there = body_keys(scene);
         let mut edits = Vec::new();
         for now in self.run.frame.bodies.iter().filter(|now| there.contains(&now.key)) {
-            edits.push(Edit::Body { key: now.key, change: BodyChange::Position(now.position) });
-            edits.push(Edit::Body { key: now.key, change: BodyChange::Velocity(now.velocity) });
-            if let Some(turn) = now.turn {
-                edits.extend(turn.changes().map(|change| Edit::Body { key: now.key, change }));
-            }
+            let changes = as_start(now.position, now.velocity, now.turn);
+            edits.extend(changes.map(|change| Edit::Body { key: now.key, change }));
         }
         edits
     }

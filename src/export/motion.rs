@@ -4,8 +4,8 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 
 use super::error::ExportError;
-use crate::scene::{BodyChange, Document, Edit, EditError, NodeKey};
-use crate::sim::{BodyRef, Progress, Simulation};
+use crate::scene::{Document, Edit, EditError, NodeKey};
+use crate::sim::{BodyRef, Progress, Simulation, as_start};
 
 /// Which part of a run is exported. Times in s.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,9 +92,7 @@ impl Animation {
 pub fn with_state_of(document: &Document, sim: &Simulation) -> Result<Document, EditError> {
     let changes = sim.dynamic_bodies().filter_map(|body| {
         let (key, state) = (sim.key(body), sim.state(body)?);
-        let turn = state.turn.map(|turn| turn.changes());
-        let moves = [BodyChange::Position(state.position), BodyChange::Velocity(state.velocity)];
-        let changes = moves.into_iter().chain(turn.into_iter().flatten());
+        let changes = as_start(state.position, state.velocity, state.turn);
         Some(changes.map(move |change| Edit::Body { key, change }))
     });
     Ok(document.apply(&Edit::All(changes.flatten().collect()))?.document)

@@ -198,19 +198,20 @@ fn dissipated(model: &Model, state: &State, body: u32, time: f64) -> f64 {
         })
 }
 
-/// ∫ μN|s| + M|v| dt of the friction of a body on a face, J.
+/// What friction took along the body's segment, J: ∫ μN|s| + M|v| dt on a face, or what was integrated with the motion.
 fn rubbed(state: &State, body: u32, time: f64) -> f64 {
     let turn = &state.turns[body as usize];
     let Rubbing { slide, roll, arm } = turn.rubbing;
     if slide == 0.0 && roll == 0.0 {
-        return 0.0;
+        return turn.work_until(time);
     }
     let path = state.path(body);
-    integrate(turn.start, time, 0.0, |at| {
-        let v = path.velocity(at);
-        let slip = v - turn.spin_at(at).cross(arm);
-        slide * slip.length() + roll * v.length()
-    })
+    turn.work_until(time)
+        + integrate(turn.start, time, 0.0, |at| {
+            let v = path.velocity(at);
+            let slip = v - turn.spin_at(at).cross(arm);
+            slide * slip.length() + roll * v.length()
+        })
 }
 
 /// ∫ x×F dt of the forces on a body along its segment up to `time`, in contact what the motion makes of it.

@@ -1,4 +1,4 @@
-//! Lasting contact of a sphere with a static body or another sphere: it rests, or slides without friction.
+//! Lasting contact of a sphere with a static body or another sphere: it rests, slides or rolls.
 
 use super::body::BodyId;
 use super::shape::Surface;
@@ -10,4 +10,6 @@ pub(super) struct Contact {
     pub surface: Surface,
     /// When the last of the skipped bounces would end, until that time has come.
     pub settles_at: Option<f64>,
+    /// Whether it does not slip at the end of the present segments.
+    pub sticks: bool,
 }

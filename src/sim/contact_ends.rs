@@ -8,6 +8,7 @@ use super::predict::{first_beyond, touch_tolerance};
 use super::queue::Kind;
 use super::shape::Surface;
 use super::state::State;
+use super::turn::Hold;
 
 /// Predicts when the contacts of a body settle or end on its present segment.
 pub(super) fn predict_contact_events(model: &Model, state: &mut State, body: u32, time: f64) {
@@ -30,6 +31,10 @@ pub(super) fn predict_contact_events(model: &Model, state: &mut State, body: u32
 /// Predicts where the island of a body comes apart, once for all its bodies.
 fn predict_parting(model: &Model, state: &mut State, body: u32) {
     if state.contacts[body as usize].is_empty() || state.segments[body as usize].step == 0.0 {
+        return;
+    }
+    // Where bodies rub, a segment ends with what it holds for.
+    if state.hold(body) != Hold::Free {
         return;
     }
     let ids = connected(state, [body]);

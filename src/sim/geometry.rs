@@ -113,6 +113,31 @@ impl BodiesAt<'_> {
         self.link_on(model, pair, surface, None)
     }
 
+    /// A contact as [`Self::link_on`] has it, with the change of its direction, 1/s.
+    pub fn turning_link(
+        &self,
+        model: &Model,
+        pair: Pair,
+        surface: Surface,
+        part: Option<&Part>,
+    ) -> (Link, DVec3) {
+        let link = self.link_on(model, pair, surface, part);
+        let turning = match (link.b, surface) {
+            (Some(b), _) => {
+                let (apart, rate) = (self.x[b] - self.x[link.a], self.v[b] - self.v[link.a]);
+                (rate - rate.dot(link.towards) * link.towards) / apart.length().max(f64::MIN_POSITIVE)
+            }
+            (None, Surface::Flat(_)) => DVec3::ZERO,
+            (None, Surface::Round) => {
+                let at = model.bodies.static_segment(pair.b.index()).x;
+                let near = model.body(pair.b).shape.convex().nearest(at, self.x[link.a]);
+                let other = part.filter(|part| !part.is_seen(&near, self.x[link.a]));
+                other.map_or(near, |part| part.seen_from(self.x[link.a])).turning(self.v[link.a])
+            }
+        };
+        (link, turning)
+    }
+
     /// The same on a part of the shape alone, wherever the body is.
     pub fn link_on(&self, model: &Model, pair: Pair, surface: Surface, part: Option<&Part>) -> Link {
         let a = self.row(pair.first());

@@ -53,10 +53,25 @@ impl Group {
         false
     }
 
+    /// Adds what friction does to bodies that slide on what is fixed to the accelerations of the applied forces: it may press
+    /// them against others.
+    pub fn add_friction(&self, model: &Model, free: &mut [DVec3]) {
+        let applied = free.to_vec();
+        for contact in self.rough(model) {
+            let Member { link, is_lasting, .. } = &self.members[contact.member];
+            let load = applied[link.a].dot(link.towards);
+            if *is_lasting && link.b.is_none() && load > 0.0 {
+                free[link.a] += contact.law.friction * load * self.slip_of(&contact).normalize_or_zero();
+            }
+        }
+    }
+
     fn rough(&self, model: &Model) -> Vec<Rough> {
         let rough = |(member, of): (usize, &Member)| {
             let law = rubbing_of(model, of.pair);
-            let mut arms = normal_arms(model, of.pair);
+            // Friction acts in the middle of the gap, on both at one point.
+            let middle = if of.pair.second().is_some() { 0.5 * of.gap.distance } else { 0.0 };
+            let mut arms = normal_arms(model, of.pair).map(|arm| if arm > 0.0 { arm + middle } else { arm });
             let inverse = |body: usize| self.bodies.inverse_mass[body];
             let (a, b) = (inverse(of.link.a), of.link.b.map_or(0.0, inverse));
             // What nothing moves does not turn either.

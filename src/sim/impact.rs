@@ -7,7 +7,8 @@ use super::account::angular;
 use super::capture::free_if_struck;
 use super::contact::Contact;
 use super::dense::{
-    LARGE_ISLAND, Role, component, enter, least_crowd, least_elastic_crowd, note_impact, note_work,
+    LARGE_ISLAND, Role, SMALLEST_CROWD, component, enter, least_crowd, least_elastic_crowd, note_impact,
+    note_work,
 };
 use super::event::{Event, EventKind};
 use super::exchange::{exchange, velocity_change};
@@ -89,7 +90,9 @@ fn enter_crowd(model: &Model, state: &mut State, pair: Pair, least: usize, time:
     let Some(dense) = &state.dense else { return Ok(false) };
     let bodies = component(model, state, dense, &pair.dynamic().collect::<Vec<u32>>(), time);
     let moving = bodies.iter().filter(|body| !state.captured.contains(body)).count();
-    if moving < least {
+    // Where bodies rub, even one between what is fixed may be struck without end.
+    let is_endless = model.plan.spin && least <= SMALLEST_CROWD;
+    if moving < least && !is_endless {
         return Ok(false);
     }
     enter(model, state, &bodies, time)?;
@@ -180,6 +183,10 @@ fn bounce(model: &Model, state: &mut State, time: f64, pair: Pair, gap: &Gap) ->
 /// Lists what a group exchanged, one row for each contact.
 fn list(model: &Model, state: &mut State, time: f64, group: &Group, kind: EventKind) {
     if !group.members.iter().any(|member| group.is_felt(model, member)) {
+        if model.plan.spin {
+            // Touches that nobody feels may follow each other without end too, where friction drives them.
+            group.bodies.ids.iter().for_each(|body| note_impact(model, state, *body, time, true));
+        }
         return;
     }
     state.group += 1;
@@ -327,7 +334,12 @@ fn make(state: &mut State, member: &Member, settling: &Settling) {
     for (body, other) in member.pair.ends() {
         let contacts = &mut state.contacts[body as usize];
         contacts.retain(|contact| contact.other != other);
-        contacts.push(Contact { other, surface: member.surface, settles_at: Some(settles_at) });
+        contacts.push(Contact {
+            other,
+            surface: member.surface,
+            settles_at: Some(settles_at),
+            sticks: false,
+        });
     }
 }
 

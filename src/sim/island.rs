@@ -132,7 +132,7 @@ fn links_of(model: &Model, ids: &[u32], contacts: &[(Pair, Surface)], x: &[DVec3
 }
 
 /// Accelerations under the applied forces alone; nothing moves a body without inverse mass.
-fn free(
+pub(super) fn free(
     model: &Model,
     ids: &[u32],
     inverse_mass: &[f64],
@@ -226,7 +226,7 @@ pub(super) fn level(model: &Model, state: &mut State, island: &mut Island) {
 }
 
 /// The edge or corner that each contact of an island lies on, in their order, where it is one of several of its shape.
-fn parts_of(model: &Model, island: &Island) -> Vec<Option<Part>> {
+pub(super) fn parts_of(model: &Model, island: &Island) -> Vec<Option<Part>> {
     let part = |(pair, surface): &(Pair, Surface)| {
         let at = island.ids.binary_search(&pair.first()).ok().map(|row| island.x[row])?;
         (*surface == Surface::Round && pair.b.is_static()).then(|| part_of(model, pair.b, at))?
@@ -245,7 +245,7 @@ fn integrated(
 ) -> Result<Vec<Step>, (u32, SegmentError)> {
     let hint = step_hint(state, island.ids[0], time);
     let Island { ids, x, v, contacts, inverse_mass } = island;
-    let start = CoupledStart { model, ids, time, x, v, hint };
+    let start = CoupledStart { model, ids, time, x, v, hint, longest: f64::INFINITY, noise: 1.0 };
     // Of each node, once it was looked at; at first those of the node before.
     let mut loads_at: [Option<Loads>; SERIES + 1] = Default::default();
     let mut last = Loads::from(loads);
@@ -266,7 +266,12 @@ fn integrated(
 }
 
 /// First time at which a body of an island has rolled off the part of a shape on which its step began.
-fn part_ends(model: &Model, island: &Island, parts: &[Option<Part>], steps: &[Step]) -> Option<f64> {
+pub(super) fn part_ends(
+    model: &Model,
+    island: &Island,
+    parts: &[Option<Part>],
+    steps: &[Step],
+) -> Option<f64> {
     if parts.iter().all(Option::is_none) {
         return None;
     }
@@ -328,7 +333,7 @@ pub(super) fn first_parting(model: &Model, state: &State, ids: &[u32]) -> Option
 }
 
 /// The first time in a segment of this length at which `holds` no longer holds, as some looks on the way see it.
-fn first_failing(start: f64, length: f64, mut holds: impl FnMut(f64) -> bool) -> Option<f64> {
+pub(super) fn first_failing(start: f64, length: f64, mut holds: impl FnMut(f64) -> bool) -> Option<f64> {
     let mut low = start;
     for sample in 1..=PRESSURE_SAMPLES {
         let high = start + length * f64::from(sample) / f64::from(PRESSURE_SAMPLES);

@@ -23,11 +23,13 @@ mod change;
 mod close_pass;
 mod constraint;
 mod contact_ends;
+mod contact_forces;
 mod dense;
 mod drive;
 mod engine;
 mod exchange;
 mod geometry;
+mod grip;
 mod group;
 mod group_friction;
 mod impact;
@@ -64,11 +66,13 @@ mod turn;
 mod way_in;
 
 // What looks on.
+mod as_start;
 mod books;
 mod candidates;
 mod hash;
 mod monitor;
 
+pub use as_start::as_start;
 pub use candidates::CandidateSet;
 pub use edit::{EditRefused, SimEdit};
 pub use event::{BodyRef, Event, EventKind};

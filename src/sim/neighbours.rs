@@ -271,7 +271,7 @@ pub(super) fn predict_pair(model: &Model, state: &mut State, pair: Pair, from: f
     {
         state.note_touching(body, other);
     }
-    if model.plan.spin && from == f64::NEG_INFINITY && lies_on(model, state, pair, time) {
+    if model.plan.spin && time == 0.0 && lies_on(model, state, pair, time) {
         return state.predict(time, Kind::Impact, pair);
     }
     let impact = predict::first_contact(ball(model, state, body), target(model, state, pair.b), from);
@@ -363,8 +363,8 @@ fn lies_against(model: &Model, state: &State, pair: Pair, time: f64) -> bool {
     apart.length_squared() <= reach * reach && gap_of(model, state, pair, time).rate <= 0.0
 }
 
-/// Whether two bodies rest on each other but for the rounding of their places. Friction must begin now: in the time in
-/// which a body falls by a rounding it would slide by the root of that.
+/// Whether two bodies rest on each other but for the rounding of their places: at the start, as somebody wrote them. Friction
+/// must begin then: in the time in which a body falls by a rounding it would slide by the root of that.
 fn lies_on(model: &Model, state: &State, pair: Pair, time: f64) -> bool {
     let gap = gap_of(model, state, pair, time);
     let slack = predict::touch_tolerance(gap.point, larger_radius(model, pair));

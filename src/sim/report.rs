@@ -1,10 +1,8 @@
 //! What can be read off a simulation: states, energies, counters, the plan, the tiles.
 
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DQuat, DVec3};
 
 use super::event::BodyRef;
-use crate::design::euler_near;
-use crate::scene::BodyChange;
 
 /// How a dynamic body is moving.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -89,14 +87,6 @@ pub struct Rotation {
     pub orientation: DQuat,
     /// rad/s, in the axes of the map.
     pub spin: DVec3,
-}
-
-impl Rotation {
-    /// The edits that let a body start like this.
-    pub fn changes(&self) -> [BodyChange; 2] {
-        let angles = euler_near(DMat3::from_quat(self.orientation), DVec3::ZERO);
-        [BodyChange::Rotation(angles), BodyChange::Spin(self.spin)]
-    }
 }
 
 /// Energies in joules.

@@ -1,11 +1,12 @@
 //! How bodies go on from an event: in free flight, captured by an attractor, or held by those they touch.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 
 use glam::DVec3;
 
-use super::dense::{LARGE_ISLAND, Role, enter, least_crowd, note_work};
+use super::dense::{LARGE_ISLAND, Role, SMALLEST_CROWD, enter, least_crowd, note_impact, note_work};
 use super::fault::{Fault, fault};
+use super::grip::{Gripped, begin_gripping, can_grip};
 use super::island::{Island, begin_island, connected, drop_unpressed, islands};
 use super::model::Model;
 use super::motion::{begin_segment, begin_stay, place};
@@ -90,7 +91,8 @@ fn begin_islands(model: &Model, state: &mut State, time: f64, starts: &[Start]) 
     }
     let mut to_step = Vec::new();
     // What is left may have fallen apart.
-    for ids in islands(state, &bodies) {
+    let mut waiting: VecDeque<Vec<u32>> = islands(state, &bodies).into();
+    while let Some(ids) = waiting.pop_front() {
         let mut island = island(state, ids);
         match regime(state, island.ids[0]) {
             Regime::Free | Regime::Captured => {
@@ -102,13 +104,18 @@ fn begin_islands(model: &Model, state: &mut State, time: f64, starts: &[Start]) 
                 halt(model, state, &island, time);
                 to_step.push(island.ids);
             }
-            Regime::Held if rubs(model, &island) => {
-                let Some(face) = lone_face(model, &island) else {
-                    return Err(Fault::internal(time, "bodies that rub are not stepped"));
-                };
-                begin_on_face(model, state, &mut island, face, time)
-                    .map_err(|(body, error)| fault(model, body, time, error))?;
-            }
+            Regime::Held if rubs(model, &island) => match begin_rubbing(model, state, &mut island, time)? {
+                Gripped::Goes => {}
+                Gripped::Parted => {
+                    // What parts may be put together again at once, and so for ever.
+                    island.ids.iter().for_each(|body| note_impact(model, state, *body, time, true));
+                    waiting.extend(islands(state, &island.ids));
+                }
+                Gripped::Stepped => {
+                    halt(model, state, &island, time);
+                    to_step.push(island.ids);
+                }
+            },
             Regime::Held => {
                 begin_island(model, state, &mut island, time)
                     .map_err(|(body, error)| fault(model, body, time, error))?;
@@ -127,6 +134,20 @@ fn begin_islands(model: &Model, state: &mut State, time: f64, starts: &[Start]) 
     Ok(bodies)
 }
 
+/// Lets an island go on that rubs.
+fn begin_rubbing(model: &Model, state: &mut State, island: &mut Island, time: f64) -> Result<Gripped, Fault> {
+    let outcome = match lone_face(model, island) {
+        Some(face) => begin_on_face(model, state, island, face, time).map(|()| Gripped::Goes),
+        None => begin_gripping(model, state, island, time),
+    };
+    match outcome.map_err(|(body, error)| fault(model, body, time, error))? {
+        Gripped::Stepped if state.dense.is_none() => {
+            Err(Fault::internal(time, "bodies that rub can't be stepped"))
+        }
+        gripped => Ok(gripped),
+    }
+}
+
 /// Whether an island is too large for events, costs too much, or rubs in a way that events do not know.
 fn is_for_steps(model: &Model, state: &State, island: &Island, time: f64) -> bool {
     let ids = &island.ids;
@@ -135,8 +156,8 @@ fn is_for_steps(model: &Model, state: &State, island: &Island, time: f64) -> boo
             || ids
                 .iter()
                 .filter_map(|body| least_crowd(model, state, *body, time))
-                .any(|least| ids.len() >= least)
-            || rubs(model, island) && lone_face(model, island).is_none())
+                .any(|least| ids.len() >= least || model.plan.spin && least <= SMALLEST_CROWD)
+            || rubs(model, island) && lone_face(model, island).is_none() && !can_grip(model, state, island))
 }
 
 /// Lets bodies begin anew where they are, from where a step of theirs will go on.

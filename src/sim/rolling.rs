@@ -63,7 +63,7 @@ pub(super) fn begin_on_face(
     let failed = |error| (body, error);
     let going = go_on_face(model, &on, &mut state.counters.force_evaluations).map_err(failed)?;
     check(model, &going.segment).map_err(failed)?;
-    book_change(model, state, &on, &going);
+    book_turn(model, state, (body, on.x), (on.v, on.spin), (going.segment.v, going.turn.spin));
     let Going { segment, column, turn } = going;
     place(model, state, body, Segment { constrained: true, ..segment }, column);
     let orientation = state.turns[body as usize].orientation;
@@ -73,22 +73,27 @@ pub(super) fn begin_on_face(
     Ok(())
 }
 
-/// Books the roundings by which velocity and spin were brought to what rolls.
-fn book_change(model: &Model, state: &mut State, on: &OnFace, going: &Going) {
-    let (mass, inertia) = (model.mass(on.body), inertia(model, on.body));
-    let (v, spin) = (going.segment.v, going.turn.spin);
-    if v == on.v && spin == on.spin {
+/// Books the roundings by which velocity and spin of a body at x were brought to what sticks.
+pub(super) fn book_turn(
+    model: &Model,
+    state: &mut State,
+    (body, x): (u32, DVec3),
+    before: (DVec3, DVec3),
+    now: (DVec3, DVec3),
+) {
+    if before == now {
         return;
     }
-    let (way, turn) = (v - on.v, spin - on.spin);
-    let lost = -0.5 * (mass * way.dot(v + on.v) + inertia * turn.dot(spin + on.spin));
+    let (mass, inertia) = (model.mass(body), inertia(model, body));
+    let (way, turn) = (now.0 - before.0, now.1 - before.1);
+    let lost = -0.5 * (mass * way.dot(now.0 + before.0) + inertia * turn.dot(now.1 + before.1));
     state.account.impact_losses.add(lost);
     state.account.impulses.add(mass * way);
-    state.account.angular.impulses.add(on.x.cross(mass * way) + inertia * turn);
+    state.account.angular.impulses.add(x.cross(mass * way) + inertia * turn);
 }
 
 /// Says how a body in contact goes on, once its bounces are over, if that is new.
-fn report(model: &Model, state: &mut State, time: f64, pair: Pair, before: Hold, now: Hold) {
+pub(super) fn report(model: &Model, state: &mut State, time: f64, pair: Pair, before: Hold, now: Hold) {
     let is_settled = state.contact(pair).is_some_and(|contact| contact.settles_at.is_none());
     if is_settled && before != now && before != Hold::Free {
         record_contact(model, state, time, kind_of(now), pair);

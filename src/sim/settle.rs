@@ -25,7 +25,10 @@ pub(super) struct Settling {
 /// its bounces are over: their sum has a near limit, or they are lower than the rounding of the position. The
 /// event comes at the limit time t + Σ flights = t + 2v'/(g(1−e)); the velocities are levelled now.
 pub(super) fn settle(model: &Model, group: &mut Group) -> Vec<Settling> {
-    let free = group.bodies.free(model, group.time);
+    let mut free = group.bodies.free(model, group.time);
+    if model.plan.spin {
+        group.add_friction(model, &mut free);
+    }
     let links = group.acceleration_links(model);
     let mut candidates = slow(model, group, &free, &links);
 

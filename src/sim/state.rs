@@ -176,6 +176,17 @@ impl State {
         self.turns.get(body as usize).map_or(Hold::Free, |turn| turn.hold)
     }
 
+    /// Notes whether a lasting contact does not slip at the end of its bodies' segments.
+    pub fn mark_sticking(&mut self, pair: Pair, sticks: bool) {
+        for (body, other) in pair.ends() {
+            let contacts = &mut self.contacts[body as usize];
+            contacts
+                .iter_mut()
+                .filter(|contact| contact.other == other)
+                .for_each(|contact| contact.sticks = sticks);
+        }
+    }
+
     /// Room for turns where the scene needs them. Bodies that had none kept their spin from the start.
     pub fn make_turns(&mut self, model: &Model) {
         if !model.plan.spin {

@@ -158,6 +158,22 @@ pub(super) const LAST_OF_SLIP: f64 = 1e-7;
 /// Larger is cut down by the integrator, smaller takes more steps.
 pub(super) const SHARE_OF_SLIP: f64 = 0.75;
 
+/// Contacts of bodies that rub together, at most, that are followed from event to event. More cost the cube of their
+/// number; fewer are stepped that need not be.
+pub(super) const MOST_GRIPPING: usize = 12;
+
+/// A slip below this part of the speeds has no direction of its own: that is rounding. Smaller, and steps shrink where slips
+/// begin; larger, and slips that turn do so late.
+pub(super) const START_OF_SLIP: f64 = 1e-9;
+
+/// In a step in which a slip begins it has the direction in which it does while its own differs by less than this: what the
+/// above leaves of rounding. And the part of the accelerations below which a slip hardly begins.
+pub(super) const AS_IT_BEGAN: f64 = 1e-6;
+
+/// A contact that sticks slips when it is held by more than its friction by this part of it: as it begins to, it is held by
+/// just that. Smaller, it slips by roundings as it begins to stick; larger, it slips late by as much.
+pub(super) const STICKS_ON: f64 = 1e-12;
+
 // Islands.
 
 /// Parts of an integrated segment at whose ends the pressure of its contacts is looked at. A step of the

@@ -64,6 +64,9 @@ pub(super) struct Turn {
     pub hold: Hold,
     pub due: Due,
     pub rubbing: Rubbing,
+    /// What friction takes of all the bodies that this one is the first of, W: at the start, and how that goes on, along x.
+    pub work: f64,
+    pub work_series: Series,
     /// Spin with which the next segment begins, where an impact gave one.
     pub given: Option<DVec3>,
 }
@@ -81,6 +84,8 @@ impl Turn {
             hold: Hold::Free,
             due: Due::Nothing,
             rubbing: Rubbing::default(),
+            work: 0.0,
+            work_series: Series::default(),
             given: None,
         }
     }
@@ -96,6 +101,13 @@ impl Turn {
         let tau = time - self.start;
         let spin = self.spin + tau * self.ramp;
         if self.step > 0.0 { spin + tau * self.series.velocity_term(tau / self.step) } else { spin }
+    }
+
+    /// What friction has taken up to a time, J, beside its rubbing on a face.
+    pub fn work_until(&self, time: f64) -> f64 {
+        let tau = time - self.start;
+        let more = if self.step > 0.0 { self.work_series.velocity_term(tau / self.step).x } else { 0.0 };
+        tau * (self.work + more)
     }
 
     /// World from body. Of a spin that changes its direction a product of exponentials, one for each panel (Magnus 1954, to

@@ -119,6 +119,8 @@ mod scene_invalid;
 mod scene_properties;
 // The reader: values, defaults, labels, places.
 mod scene_read;
+// Friction and spin in files.
+mod scene_rough;
 // Many bodies: what an edit costs, and whether it is right.
 mod scene_scale;
 // Stepped groups: heaps come to rest, wake, and depend on nothing but the scene.

@@ -5,8 +5,7 @@ use glam::{DMat3, DVec3};
 use super::inputs::{ANYWHERE, AXES, around, axis, with_bodies};
 use crate::design::plan::Plan;
 use crate::design::tool::{Input, Kind, Tool, ToolGroup};
-use crate::design::turn::euler_near;
-use crate::scene::{Body, BodyChange, BodyCopy, Edit, Motion, Shape, rotation_matrix};
+use crate::scene::{Body, BodyChange, BodyCopy, Edit, Motion, Shape, euler_near, rotation_matrix};
 
 pub const MIRROR: Tool = Tool {
     id: "mirror",

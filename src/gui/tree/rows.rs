@@ -321,12 +321,10 @@ fn paint_contact(ui: &Ui, context: &AppContext<'_>, center: egui::Pos2, contact:
     match contact {
         ContactState::Flight => {}
         ContactState::Rest => {
-            let square = Rect::from_center_size(center, vec2(6.0, 6.0));
-            painter.rect_filled(square, 0.0, color32(palette.rest));
+            painter.rect_filled(Rect::from_center_size(center, vec2(6.0, 6.0)), 0.0, color32(palette.rest));
         }
         ContactState::Slide => {
-            let stroke = egui::Stroke::new(1.5, color32(palette.slide));
-            painter.circle_stroke(center, 3.0, stroke);
+            painter.circle_stroke(center, 3.0, egui::Stroke::new(1.5, color32(palette.slide)));
         }
         ContactState::Roll => drop(painter.circle_filled(center, 3.5, color32(palette.roll))),
         ContactState::Stepped => {

@@ -15,7 +15,6 @@ use crate::scene::tree::{Child, Element};
 pub(super) fn change(pen: Pen<'_>, el: &Arc<Element>, lead: &str, change: &BodyChange) -> Changed {
     let dynamic = pen.view(el).name() == "SoftObject";
     let leaf = |name, numbers: &[_], default| pen.with_leaf(el, lead, (name, &BODY_ORDER), numbers, default);
-    let rough = |name, value| new_leaf(pen, el, lead, name, &[("F32", value)]);
     match change {
         BodyChange::Id(id) => Ok(pen.with_text(el, "UserID", &id.to_string())),
         BodyChange::Name(name) => {
@@ -45,17 +44,8 @@ pub(super) fn change(pen: Pen<'_>, el: &Arc<Element>, lead: &str, change: &BodyC
             check("the bounce", *bounce, Range::NotNegative)?;
             leaf("Bounce", &[("F32", *bounce)], Some(1.0))
         }
-        BodyChange::Friction(friction) => {
-            check("the friction", *friction, Range::NotNegative)?;
-            rough("Friction", *friction)
-        }
-        BodyChange::RollingFriction(rolling) => {
-            check("the rolling friction", *rolling, Range::NotNegative)?;
-            rough("RollingFriction", *rolling)
-        }
-        BodyChange::Tangential(tangential) => {
-            check("the tangential restitution", *tangential, Range::Between(0.0, 1.0))?;
-            rough("Tangential", *tangential)
+        BodyChange::Friction(_) | BodyChange::RollingFriction(_) | BodyChange::Tangential(_) => {
+            set_roughness(pen, el, lead, change)
         }
         BodyChange::Material(material) => set_material(pen, el, lead, material.as_deref()),
         BodyChange::Mass(_) | BodyChange::Velocity(_) | BodyChange::Spin(_) if !dynamic => {
@@ -78,6 +68,21 @@ pub(super) fn change(pen: Pen<'_>, el: &Arc<Element>, lead: &str, change: &BodyC
             set_shape(pen, el, lead, shape)
         }
     }
+}
+
+fn set_roughness(pen: Pen<'_>, el: &Arc<Element>, lead: &str, change: &BodyChange) -> Changed {
+    let (element, name, value, range) = match *change {
+        BodyChange::Friction(value) => ("Friction", "the friction", value, Range::NotNegative),
+        BodyChange::RollingFriction(value) => {
+            ("RollingFriction", "the rolling friction", value, Range::NotNegative)
+        }
+        BodyChange::Tangential(value) => {
+            ("Tangential", "the tangential restitution", value, Range::Between(0.0, 1.0))
+        }
+        _ => return Ok(el.clone()),
+    };
+    check(name, value, range)?;
+    new_leaf(pen, el, lead, element, &[("F32", value)])
 }
 
 /// Sets the numbers of an element of 1.1, which goes where they become 0: so older tools read the file again. One that

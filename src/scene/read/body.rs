@@ -60,13 +60,7 @@ pub(super) fn read<'a>(el: View<'a>, log: &mut Log<'a>, cosmetics: Cosmetics, us
         let hint = "write <Translation X=\"…\" Y=\"…\" Z=\"…\" />";
         log.error(el.place(), "the body has no Translation", hint);
     }
-    let mut coefficient =
-        |el: Option<View<'a>>, range| el.and_then(|el| log.scalar(el, range)).unwrap_or(0.0);
-    let roughness = Roughness {
-        friction: coefficient(friction, Range::NotNegative),
-        rolling: coefficient(rolling, Range::NotNegative),
-        tangential: coefficient(tangential, Range::Between(0.0, 1.0)),
-    };
+    let roughness = read_roughness(log, [friction, rolling, tangential]);
     let mut vector =
         |el: Option<View<'a>>| el.and_then(|el| log.vector(el, Range::Any)).unwrap_or(DVec3::ZERO);
     let (position, rotation) = (vector(translation), vector(rotation));
@@ -112,6 +106,13 @@ fn read_bounce<'a>(log: &mut Log<'a>, el: Option<View<'a>>) -> f64 {
         log.within(el, |log| log.warn(at, "Bounce is greater than 1", hint));
     }
     bounce
+}
+
+fn read_roughness<'a>(log: &mut Log<'a>, els: [Option<View<'a>>; 3]) -> Roughness {
+    let ranges = [Range::NotNegative, Range::NotNegative, Range::Between(0.0, 1.0)];
+    let mut pairs = els.into_iter().zip(ranges);
+    let mut next = || pairs.next().and_then(|(el, range)| log.scalar(el?, range)).unwrap_or(0.0);
+    Roughness { friction: next(), rolling: next(), tangential: next() }
 }
 
 fn read_material<'a>(log: &mut Log<'a>, el: View<'a>) -> Option<String> {

@@ -10,10 +10,9 @@ use super::data::{Component, Dense, Member, Role, Work};
 use super::list::{self, NearOutsiders};
 use super::membership::{Left, component, frozen_with, take_in};
 use super::rest::{freeze, is_still, leave, record_group};
-use super::rub::law;
-use super::start::read_bodies;
-use super::stepped::{Contact, FIXED};
-use super::sweep::{Moving, closing, solve, velocity};
+use super::start::{law_of, read_bodies};
+use super::stepped::{Contact, FIXED, Moving, velocity};
+use super::sweep::{closing, solve};
 use super::tolerance::{
     MOST_ATTEMPTS, MOST_HALVINGS, MOST_HALVINGS_TO_CONVERGE, MOST_SWEEPS, TURN_IN_A_STEP, WAY_OF_RADIUS,
 };
@@ -281,7 +280,8 @@ fn propose(model: &Model, state: &mut State, dense: &Dense, component: &mut Comp
         work.end = step_end(model.dense_step, work.halvings, time);
         let h = work.end - time;
         work.bodies.iter_mut().for_each(|body| body.take_step(h));
-        component.work.rubbing.begin(model, state, &component.work.bodies, time);
+        let spin = model.plan.spin.then_some(|body| state.spin(body, time));
+        work.rubbing.begin(&work.bodies, spin);
         find_contacts(model, state, dense, component, h);
         solve_contacts(model, state, dense, component, h);
         let work = &mut component.work;
@@ -329,7 +329,7 @@ fn solve_contacts(model: &Model, state: &State, dense: &Dense, component: &mut C
             met.is_none()
         });
     };
-    let law = |contact: &Contact| law(model, dense, contact);
+    let law = |contact: &Contact| law_of(model, dense, contact);
     *solution = solve(system, contacts, bodies, h, (rubbing, &law), meet);
 }
 

@@ -33,5 +33,5 @@ pub(super) use clock::step_length;
 pub(super) use data::{Dense, Role};
 pub(super) use group_step::{enter, next_step, reach, step, wake_all};
 pub(super) use membership::component;
-pub(super) use tolerance::LARGE_ISLAND;
+pub(super) use tolerance::{LARGE_ISLAND, SMALLEST_CROWD};
 pub(super) use view::{contact_forces, stepped_bodies};

@@ -7,13 +7,8 @@
 
 use glam::DVec3;
 
-use super::data::Dense;
-use super::stepped::{Contact, Stepped};
-use super::sweep::{Moving, velocity};
+use super::stepped::{Contact, Moving, Stepped, velocity};
 use crate::scene::Roughness;
-use crate::sim::geometry::rubbing_of;
-use crate::sim::model::Model;
-use crate::sim::state::State;
 use crate::sim::turn::INERTIA;
 
 /// A contact that rubs.
@@ -61,13 +56,6 @@ pub(super) struct Law {
 /// How a step asks for that of a contact; `None` where it does not rub.
 pub(super) type LawOf<'a> = dyn Fn(&Contact) -> Option<Law> + 'a;
 
-/// The law of a contact; `None` where it does not rub.
-pub(super) fn law(model: &Model, dense: &Dense, contact: &Contact) -> Option<Law> {
-    let roughness = rubbing_of(model, dense.pairs[contact.listed as usize].pair);
-    let force = dense.rubs.get(contact.listed as usize).copied().unwrap_or_default();
-    (roughness.friction > 0.0).then_some(Law { roughness, force })
-}
-
 impl Row {
     /// Slip of the second body on the first, m/s.
     fn slip(&self, velocities: [DVec3; 2], spins: [DVec3; 2]) -> DVec3 {
@@ -84,22 +72,19 @@ impl Row {
 }
 
 impl Rubbing {
-    /// Bodies as they turn before the step.
-    pub fn begin(&mut self, model: &Model, state: &State, bodies: &[Stepped], time: f64) {
+    /// Bodies with their spins before the step, rad/s; without any where nothing rubs.
+    pub fn begin(&mut self, bodies: &[Stepped], spin: Option<impl Fn(u32) -> DVec3>) {
         self.rows.clear();
         self.spins.clear();
         self.before.clear();
         self.inverse_inertia.clear();
-        if !model.plan.spin {
-            return;
-        }
+        let Some(spin) = spin else { return };
         for body in bodies {
             let is_held = body.inverse_mass == 0.0;
-            let spin = if is_held { DVec3::ZERO } else { state.spin(body.body, time) };
-            self.spins.push(spin);
-            self.before.push(spin);
+            self.spins.push(if is_held { DVec3::ZERO } else { spin(body.body) });
             self.inverse_inertia.push(body.inverse_mass / (INERTIA * body.radius * body.radius));
         }
+        self.before.clone_from(&self.spins);
     }
 
     /// Adds contacts, of which the first is the one of this number.
@@ -117,12 +102,10 @@ impl Rubbing {
         for (nth, contact) in contacts.iter().enumerate() {
             let Some(Law { roughness, force }) = law(contact) else { continue };
             let normal = contact.normal;
-            let arm = |body: u32| {
-                bodies
-                    .get(body as usize)
-                    .filter(|body| body.inverse_mass > 0.0)
-                    .map_or(0.0, |body| body.radius)
-            };
+            let moves = |body: u32| bodies.get(body as usize).is_some_and(|body| body.inverse_mass > 0.0);
+            // Friction acts in the middle of the gap, on both at one point.
+            let middle = if moves(contact.a) && moves(contact.b) { 0.5 * contact.gap } else { 0.0 };
+            let arm = |body: u32| if moves(body) { bodies[body as usize].radius + middle } else { 0.0 };
             let radius = |body: u32| bodies.get(body as usize).map_or(f64::INFINITY, |body| body.radius);
             let turns = |body: u32| self.inverse_inertia.get(body as usize).copied().unwrap_or(0.0);
             let impulse = h * (force - force.dot(normal) * normal);

@@ -3,9 +3,11 @@
 use glam::DVec3;
 
 use super::data::{Component, Dense, Member};
-use super::stepped::Stepped;
+use super::rub::Law;
+use super::stepped::{Contact, Stepped};
 use super::tolerance::{MOST_HALVINGS, TURN_IN_A_STEP};
-use crate::sim::force::Law;
+use crate::sim::force;
+use crate::sim::geometry::rubbing_of;
 use crate::sim::model::Model;
 use crate::sim::place::Place;
 use crate::sim::state::State;
@@ -60,21 +62,21 @@ fn driven(model: &Model, body: u32, (x, v): (DVec3, DVec3), time: f64, h: f64) -
     if model.is_ballistic() {
         return model.applied_acceleration(&subject);
     }
-    let of_law = |law: &Law| {
+    let of_law = |law: &force::Law| {
         let a = law.force(&subject) / subject.mass;
         match law {
-            Law::Drag { .. } => {
+            force::Law::Drag { .. } => {
                 let rate = a.length() / v.length().max(f64::MIN_POSITIVE);
                 a / (1.0 + 0.5 * h * rate)
             }
-            Law::Point { center, .. } => {
+            force::Law::Point { center, .. } => {
                 let rate = a.length() / (x - *center).length().max(f64::MIN_POSITIVE);
                 // Steps become shorter here, as far as they can.
                 let shortest = h / f64::from(1_u32 << MOST_HALVINGS);
                 let turn = h.min(shortest.max(TURN_IN_A_STEP / rate.sqrt())) * rate.sqrt();
                 a / (1.0 + 0.25 * (turn * turn - TURN_IN_A_STEP * TURN_IN_A_STEP).max(0.0))
             }
-            Law::Uniform { .. } | Law::Custom(_) => a,
+            force::Law::Uniform { .. } | force::Law::Custom(_) => a,
         }
     };
     model.forces.iter().map(|force| of_law(&force.law)).sum()
@@ -82,8 +84,8 @@ fn driven(model: &Model, body: u32, (x, v): (DVec3, DVec3), time: f64, h: f64) -
 
 /// How fast the pull of an attractor changes at a place, 1/s²: G/d³ by its own doing, or (v/d)² where a body falls in.
 fn stiffness(model: &Model, x: DVec3, v: DVec3) -> f64 {
-    let of_law = |law: &Law| match *law {
-        Law::Point { center, intensity } if intensity != 0.0 => {
+    let of_law = |law: &force::Law| match *law {
+        force::Law::Point { center, intensity } if intensity != 0.0 => {
             let way = x - center;
             let distance = way.length();
             let rate = -way.dot(v) / (distance * distance);
@@ -92,4 +94,11 @@ fn stiffness(model: &Model, x: DVec3, v: DVec3) -> f64 {
         _ => 0.0,
     };
     model.forces.iter().map(|force| of_law(&force.law)).fold(0.0, f64::max)
+}
+
+/// The law of a contact with what its friction was; `None` where it does not rub.
+pub(super) fn law_of(model: &Model, dense: &Dense, contact: &Contact) -> Option<Law> {
+    let roughness = rubbing_of(model, dense.pairs[contact.listed as usize].pair);
+    let force = dense.rubs.get(contact.listed as usize).copied().unwrap_or_default();
+    (roughness.friction > 0.0).then_some(Law { roughness, force })
 }

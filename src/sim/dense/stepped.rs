@@ -91,3 +91,12 @@ pub(super) struct Contact {
     /// Whether it is too far off to count until it is seen to meet.
     pub is_lazy: bool,
 }
+
+/// Velocity in the middle of a step, m/s, and inverse mass, 1/kg.
+pub(super) type Moving = [f64; 4];
+
+/// m/s.
+pub(super) fn velocity(moving: &Moving) -> DVec3 {
+    let [x, y, z, _] = *moving;
+    DVec3::new(x, y, z)
+}

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::rub::{LawOf, Rubbing};
-use super::stepped::{Contact, Stepped};
+use super::stepped::{Contact, Moving, Stepped, velocity};
 use super::tolerance::{
     BUDGET, COARSEST, FINEST, FINEST_OF_DEEP, GAIN, GROSS_GAIN, MOST_SWEEPS, SHARE_OF_BUDGET, SHARE_OF_WAY,
     SWEEPS_AGAINST_GAIN,
@@ -17,9 +17,6 @@ pub(super) struct Solution {
     pub sweeps: usize,
     pub has_converged: bool,
 }
-
-/// Velocity, m/s, and inverse mass, 1/kg.
-pub(super) type Moving = [f64; 4];
 
 /// A contact as the sweeps read it: one cache line.
 #[derive(Clone, Copy, Debug)]
@@ -76,20 +73,12 @@ pub(super) fn solve(
     let (mut extra, mut solution) = (0, Solution::default());
     let loss = loop {
         if solution.sweeps >= MOST_SWEEPS {
-            let rubbed = if rubbing.is_empty() { 0.0 } else { rubbing.loss(&system.moving) };
-            break system.judge(contacts, h).0 + rubbed;
+            break system.judge(contacts, h, rubbing).0;
         }
-        let is_backward = solution.sweeps % 2 == 1;
-        let mut worst = system.sweep(is_backward);
-        if !rubbing.is_empty() {
-            worst = worst.max(rubbing.sweep(&mut system.moving, &system.impulses, is_backward));
-        }
+        let worst = system.sweep(solution.sweeps % 2 == 1, rubbing);
         solution.sweeps += 1;
         if worst > 1.0 {
-            // The bounds of friction move with the impulses: nothing is to be overshot.
-            if rubbing.is_empty() {
-                system.go_on();
-            }
+            system.go_on(rubbing);
             continue;
         }
         let before = contacts.len();
@@ -99,19 +88,14 @@ pub(super) fn solve(
             rub_on(system, rubbing, before, contacts);
             continue;
         }
-        let (mut loss, sinks) = system.judge(contacts, h);
-        if !rubbing.is_empty() {
-            loss += rubbing.loss(&system.moving);
-        }
+        let (loss, sinks) = system.judge(contacts, h, rubbing);
         let gains_grossly = -loss > GROSS_GAIN * allowed;
         solution.has_converged = !sinks && !gains_grossly;
         let is_tired = extra >= SWEEPS_AGAINST_GAIN && !gains_grossly;
         if is_tired || (!sinks && -loss <= allowed) {
             break loss;
         }
-        if rubbing.is_empty() {
-            system.go_on();
-        }
+        system.go_on(rubbing);
         extra += 1;
     };
     solution.loss = loss;
@@ -144,19 +128,26 @@ impl System {
     }
 
     /// One sweep; gives the largest change in units of what is tolerated.
-    fn sweep(&mut self, is_backward: bool) -> f64 {
+    fn sweep(&mut self, is_backward: bool, rubbing: &mut Rubbing) -> f64 {
         let rows = self.rows.iter().zip(self.impulses.iter_mut().zip(&mut self.changes));
         let (worst, norm) =
             if is_backward { sweep(rows.rev(), &mut self.moving) } else { sweep(rows, &mut self.moving) };
         // Where the change became larger, the conjugate gradient begins anew.
         (self.share, self.norm) = (norm / self.norm, norm);
-        worst
+        if rubbing.is_empty() {
+            return worst;
+        }
+        worst.max(rubbing.sweep(&mut self.moving, &self.impulses, is_backward))
     }
 
     /// The nonlinear conjugate gradient method on top of the sweeps, taking what a sweep changes for the gradient
     /// (Silcowitz-Hansen, Niebe & Erleben 2010): impulses travel through a column of n bodies in some n sweeps, not
     /// n². It goes on along the directions of before, as long as changes become smaller.
-    fn go_on(&mut self) {
+    fn go_on(&mut self, rubbing: &Rubbing) {
+        // The bounds of friction move with the impulses: nothing is to be overshot.
+        if !rubbing.is_empty() {
+            return;
+        }
         let share = self.share;
         if share.is_nan() || share >= 1.0 {
             self.directions.copy_from_slice(&self.changes);
@@ -173,7 +164,7 @@ impl System {
 
     /// Energy that the contacts take, −½ Σ λ (s + s'), J, and whether one of them goes deeper than the overlap
     /// budget allows.
-    fn judge(&self, contacts: &[Contact], h: f64) -> (f64, bool) {
+    fn judge(&self, contacts: &[Contact], h: f64, rubbing: &Rubbing) -> (f64, bool) {
         let (mut loss, mut sinks) = (0.0, false);
         for (contact, impulse) in contacts.iter().zip(&self.impulses) {
             let rate = closing(contact, &self.moving);
@@ -181,6 +172,9 @@ impl System {
             let deeper = -h * rate;
             let budget = BUDGET * contact.radius;
             sinks |= deeper > FINEST * contact.radius && deeper - contact.gap > budget;
+        }
+        if !rubbing.is_empty() {
+            loss += rubbing.loss(&self.moving);
         }
         (loss, sinks)
     }
@@ -251,12 +245,6 @@ fn dot(one: [f64; 4], other: [f64; 4]) -> f64 {
 pub(super) fn closing(contact: &Contact, moving: &[Moving]) -> f64 {
     let of = |body: u32| moving.get(body as usize).map_or(DVec3::ZERO, velocity);
     contact.normal.dot(of(contact.b) - of(contact.a))
-}
-
-/// m/s.
-pub(super) fn velocity(moving: &Moving) -> DVec3 {
-    let [x, y, z, _] = *moving;
-    DVec3::new(x, y, z)
 }
 
 /// Energy that what the sweeps leave may add, J.

@@ -96,7 +96,7 @@ pub(super) const OLDEST_LIST: f64 = 64.0;
 /// squeezed between two others do not rebound; more, and heaps stall for longer.
 pub(super) const STRUCK_OFTEN: f64 = 256.0;
 pub(super) const HALF_LIFE: f64 = 4.0;
-pub(super) const SMALLEST_CROWD: usize = 4;
+pub(in crate::sim) const SMALLEST_CROWD: usize = 4;
 
 /// Elastic bodies that squeeze each other part again, after ever so many impacts as their masses differ. Up to eight are
 /// followed through them all; among more there is no end to it.

@@ -31,6 +31,11 @@ pub(in crate::sim) struct CoupledStart<'a> {
     pub v: &'a [DVec3],
     /// The step to try first, s; 0 asks for one from the field itself.
     pub hint: f64,
+    /// The longest step, s. Behind the bodies there may be more vectors that are integrated with them.
+    pub longest: f64,
+    /// How many times the accelerations are rounded as much as their sizes are: 1, or more where a force has the direction
+    /// of a small vector.
+    pub noise: f64,
 }
 
 /// One accepted step of all bodies, of the same length. `accelerations` are asked for at nodes, by number, time,
@@ -50,7 +55,8 @@ pub(in crate::sim) fn coupled_step(
     }
     let courses = start.courses(&a0);
     let resolved = courses.iter().map(Course::resolved).fold(f64::INFINITY, f64::min);
-    let limits = limits(start.model);
+    let mut limits = limits(start.model);
+    limits.longest = limits.longest.min(start.longest);
     let first = start.first_step(&a0, size, &mut field).min(limits.longest).min(resolved);
     let accepted = accept(
         start.time,
@@ -149,7 +155,7 @@ fn correct(
                 if n == SERIES {
                     change = change.max(delta.length());
                     noise = noise.max(NOISE_GAIN * rounding_of(rise, x[body] - start.x[body], start.x[body]));
-                    noise = noise.max(NOISE_GAIN * f64::EPSILON * applied);
+                    noise = noise.max(start.noise * NOISE_GAIN * f64::EPSILON * applied);
                 }
             }
         }

@@ -85,6 +85,16 @@ impl Near {
             / self.to_center.max(f64::MIN_POSITIVE)
     }
 
+    /// How the direction towards the nearest point turns for a point that moves, 1/s.
+    pub fn turning(&self, velocity: DVec3) -> DVec3 {
+        let across = match self.feature {
+            Feature::Face => return DVec3::ZERO,
+            Feature::Edge(along) => velocity - velocity.dot(along) * along,
+            Feature::Corner => velocity,
+        };
+        -(across - across.dot(self.towards) * self.towards) / self.to_center.max(f64::MIN_POSITIVE)
+    }
+
     /// The part that a point sees.
     pub fn part(&self, point: DVec3) -> Part {
         let center = point + self.to_center * self.towards;

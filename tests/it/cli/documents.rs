@@ -69,5 +69,5 @@ fn the_scene_of_the_formats_page_is_sound_and_uses_1_1() {
     let examined = examine(Document::from_bytes(xml.as_bytes()), Method::Exact);
     assert_eq!(examined.lines("format.md"), [""; 0]);
     assert!(examined.simulation.is_some());
-    assert_eq!(examined.document.reasons_for_1_1().len(), 6, "drag, solver, friction of three kinds, spin");
+    assert_eq!(examined.document.reasons_for_1_1().len(), 6, "drag, friction of three kinds, spin, solver");
 }
