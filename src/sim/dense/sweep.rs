@@ -15,6 +15,8 @@ pub(super) struct Solution {
     pub loss: f64,
     pub sweeps: usize,
     pub has_converged: bool,
+    /// Whether it gains so much that it must not be taken.
+    pub gains: bool,
 }
 
 /// Velocity, m/s, and inverse mass, 1/kg.
@@ -67,7 +69,9 @@ pub(super) fn solve(
     let (mut extra, mut solution) = (0, Solution::default());
     let loss = loop {
         if solution.sweeps >= MOST_SWEEPS {
-            break system.judge(contacts, h).0;
+            let loss = system.judge(contacts, h).0;
+            solution.gains = gains_grossly(loss, bodies);
+            break loss;
         }
         let worst = system.sweep(solution.sweeps % 2 == 1);
         solution.sweeps += 1;
@@ -82,9 +86,9 @@ pub(super) fn solve(
             continue;
         }
         let (loss, sinks) = system.judge(contacts, h);
-        let gains_grossly = -loss > GROSS_GAIN * allowed;
-        solution.has_converged = !sinks && !gains_grossly;
-        let is_tired = extra >= SWEEPS_AGAINST_GAIN && !gains_grossly;
+        solution.gains = gains_grossly(loss, bodies);
+        solution.has_converged = !sinks && !solution.gains;
+        let is_tired = extra >= SWEEPS_AGAINST_GAIN && !solution.gains;
         if is_tired || (!sinks && -loss <= allowed) {
             break loss;
         }
@@ -120,6 +124,13 @@ impl System {
         self.norm = 0.0;
     }
 
+    /// Takes a solution that was found elsewhere.
+    pub fn adopt(&mut self, impulses: Vec<f64>, motion: &[DVec3], inverse_mass: &[f64]) {
+        self.impulses = impulses;
+        self.moving.clear();
+        self.moving.extend(motion.iter().zip(inverse_mass).map(|(u, inverse)| [u.x, u.y, u.z, *inverse]));
+    }
+
     /// One sweep; gives the largest change in units of what is tolerated.
     fn sweep(&mut self, is_backward: bool) -> f64 {
         let rows = self.rows.iter().zip(self.impulses.iter_mut().zip(&mut self.changes));
@@ -150,7 +161,7 @@ impl System {
 
     /// Energy that the contacts take, −½ Σ λ (s + s'), J, and whether one of them goes deeper than the overlap
     /// budget allows.
-    fn judge(&self, contacts: &[Contact], h: f64) -> (f64, bool) {
+    pub fn judge(&self, contacts: &[Contact], h: f64) -> (f64, bool) {
         let (mut loss, mut sinks) = (0.0, false);
         for (contact, impulse) in contacts.iter().zip(&self.impulses) {
             let rate = closing(contact, &self.moving);
@@ -164,7 +175,7 @@ impl System {
 }
 
 /// A body as the applied forces alone move it.
-fn free(body: &Stepped, h: f64) -> Moving {
+pub(super) fn free(body: &Stepped, h: f64) -> Moving {
     let u = if body.inverse_mass > 0.0 { body.u + h * body.a } else { body.u };
     [u.x, u.y, u.z, body.inverse_mass]
 }
@@ -234,6 +245,11 @@ pub(super) fn closing(contact: &Contact, moving: &[Moving]) -> f64 {
 pub(super) fn velocity(moving: &Moving) -> DVec3 {
     let [x, y, z, _] = *moving;
     DVec3::new(x, y, z)
+}
+
+/// Whether contacts that take this energy, J, give so much that a step has not converged.
+pub(super) fn gains_grossly(loss: f64, bodies: &[Stepped]) -> bool {
+    -loss > GROSS_GAIN * allowed_gain(bodies)
 }
 
 /// Energy that what the sweeps leave may add, J.
