@@ -212,10 +212,12 @@ pub(super) fn begin_island(
         let steps = integrated(model, state, island, time, &parts, start)?;
         match part_ends(model, island, &parts, &steps) {
             None => steps,
-            Some(end) if end > time + LEAST_OF_STEP * steps[0].0.step => {
-                steps.into_iter().map(|(segment, column)| (Segment { end, ..segment }, column)).collect()
-            }
-            Some(_) => integrated(model, state, island, time, &[], start)?,
+            Some(end) if end > time + LEAST_OF_STEP * steps[0].0.step => until(steps, end),
+            // Where the border of two parts lies at the very start, no step across it is short enough: one up to it.
+            Some(end) => match integrated(model, state, island, time, &[], start) {
+                Err((_, SegmentError::Stalled)) if end > time => until(steps, end),
+                across => across?,
+            },
         }
     };
     for (body, (segment, _)) in island.ids.iter().zip(&steps) {
@@ -226,6 +228,11 @@ pub(super) fn begin_island(
         place(model, state, *body, segment, column);
     }
     Ok(())
+}
+
+/// The same steps, of which only the beginning counts.
+fn until(steps: Vec<Step>, end: f64) -> Vec<Step> {
+    steps.into_iter().map(|(segment, column)| (Segment { end, ..segment }, column)).collect()
 }
 
 /// The edge or corner that each contact of an island lies on, in their order, where it is one of several of its shape.
