@@ -184,18 +184,34 @@ pub(super) fn subject<'a>(model: &'a Model, state: &State, body: u32, time: f64)
     model.subject(body, time, state.path(body).place(time), state.velocity(body, time))
 }
 
-/// −∫ F·v dt of the drag forces along the body's segment up to `time`, and what friction took, J.
+/// −∫ F·v dt of the drag forces along the body's segment up to `time`, and what friction took, J. In the step of a group
+/// drag is what its constant acceleration is beyond that of the other forces: by the law along the way it would be off by an
+/// error of that step.
 fn dissipated(model: &Model, state: &State, body: u32, time: f64) -> f64 {
     let rubbed = if model.plan.spin { rubbed(state, body, time) } else { 0.0 };
     if !model.forces.iter().any(|force| force.law.dissipates()) {
         return rubbed;
     }
-    rubbed
-        + integrate(state.segments[body as usize].start, time, 0.0, |at| {
-            let subject = subject(model, state, body, at);
-            let drags = model.forces.iter().filter(|force| force.law.dissipates());
-            -drags.map(|force| force.law.force(&subject).dot(subject.velocity)).sum::<f64>()
-        })
+    let segment = &state.segments[body as usize];
+    if model.plan.spin {
+        // The acceleration of bodies that rub is not of applied forces alone.
+        return rubbed + by_law(model, state, body, time);
+    }
+    if segment.constrained && segment.step == 0.0 {
+        let tau = time - segment.start;
+        let way = tau * (segment.v + (0.5 * tau) * segment.a);
+        return -model.mass(body) * (segment.a - undamped(model, body, segment.start, segment.x)).dot(way);
+    }
+    by_law(model, state, body, time)
+}
+
+/// −∫ F·v dt of the drag forces by their law, J.
+fn by_law(model: &Model, state: &State, body: u32, time: f64) -> f64 {
+    integrate(state.segments[body as usize].start, time, 0.0, |at| {
+        let subject = subject(model, state, body, at);
+        let drags = model.forces.iter().filter(|force| force.law.dissipates());
+        -drags.map(|force| force.law.force(&subject).dot(subject.velocity)).sum::<f64>()
+    })
 }
 
 /// What friction took along the body's segment, J: ∫ μN|s| + M|v| dt on a face, or what was integrated with the motion.
@@ -234,6 +250,27 @@ fn torque_impulse(model: &Model, state: &State, body: u32, time: f64) -> DVec3 {
     integrate(segment.start, time, DVec3::ZERO, |at| {
         angular(path.position(at), model.applied_force(&subject(model, state, body, at)))
     })
+}
+
+/// Acceleration by the forces that do not dissipate, m/s².
+fn undamped(model: &Model, body: u32, time: f64, x: DVec3) -> DVec3 {
+    let subject = model.subject(body, time, Place::exact(x), DVec3::ZERO);
+    let lasting = model.forces.iter().filter(|force| !force.law.dissipates());
+    lasting.map(|force| force.law.force(&subject)).sum::<DVec3>() / subject.mass
+}
+
+/// Books what changes a body's velocity, now v, between two steps of a group, as the forces at the end of a step
+/// are others than at its start. What drag has of it is lost.
+pub(super) fn book_kick(model: &Model, state: &mut State, body: u32, time: f64, kick: DVec3, v: DVec3) {
+    let mass = model.mass(body);
+    state.account.force_impulse.add(mass * kick);
+    if model.forces.iter().any(|force| force.law.dissipates()) {
+        let segment = &state.segments[body as usize];
+        let rise = undamped(model, body, time, state.position(body, time))
+            - undamped(model, body, segment.start, segment.x);
+        let of_drag = kick - (0.5 * (time - segment.start)) * rise;
+        state.account.dissipated.add(-mass * of_drag.dot(v + 0.5 * kick));
+    }
 }
 
 /// ∫ F dt of all forces on the body along its segment up to `time`, N·s. In free flight through a field the

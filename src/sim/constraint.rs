@@ -30,14 +30,16 @@ pub(super) fn stay_on(links: &[Link], inverse_mass: &[f64], motion: &mut [DVec3]
     nearest(links, &vec![true; links.len()], inverse_mass, motion)
 }
 
-/// The same, with the loads of a problem like it to start from.
-pub(super) fn stay_on_from(
+/// Turns a motion into the nearest one that enters no surface and leaves none that is `held`, with the loads of a problem
+/// like it to start from.
+pub(super) fn hold_from(
     loads: &mut Loads,
     links: &[Link],
+    held: &[bool],
     inverse_mass: &[f64],
     motion: &mut [DVec3],
 ) -> Solved {
-    nearest_from(loads, links, &vec![true; links.len()], inverse_mass, motion)
+    nearest_from(loads, links, held, inverse_mass, motion)
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use glam::DVec3;
 
 use super::account::angular;
-use super::constraint::{enter_none, enter_none_from, stay_on, stay_on_from};
+use super::constraint::{enter_none, enter_none_from, hold_from, stay_on};
 use super::event::EventKind;
 use super::force::{ForceEntry, Law};
 use super::geometry::{BodiesAt, part_of, sees_part, surface_of};
@@ -98,14 +98,20 @@ impl Island {
 /// not in contact.
 pub(super) fn pressed(links: &[Link], solved: &Solved, inverse_mass: &[f64], motion: &[DVec3]) -> Vec<bool> {
     let rounding = |link: &Link| PRESSURE_ROUNDING * solved.size(link);
-    let loads = links.iter().zip(&solved.multipliers);
-    let loaded: Vec<bool> =
-        loads.map(|(link, load)| load * link.response(link, inverse_mass) > rounding(link)).collect();
+    let loaded = loaded(links, solved, inverse_mass);
     let shares = |link: &Link| {
         links.iter().zip(&loaded).any(|(other, is_loaded)| *is_loaded && other.shares_body(link))
     };
     let parts = |link: &Link| link.limit - link.entering(motion) > rounding(link);
     links.iter().map(|link| !parts(link) && shares(link)).collect()
+}
+
+/// On which links a force acts that is more than rounding.
+fn loaded(links: &[Link], solved: &Solved, inverse_mass: &[f64]) -> Vec<bool> {
+    let is_loaded = |(link, load): (&Link, &f64)| {
+        load * link.response(link, inverse_mass) > PRESSURE_ROUNDING * solved.size(link)
+    };
+    links.iter().zip(&solved.multipliers).map(is_loaded).collect()
 }
 
 /// The largest of some accelerations and of what keeps the bodies on curved surfaces.
@@ -197,13 +203,17 @@ pub(super) fn begin_island(
         rows.map(|((x, v), a)| (Segment::ballistic(time, *x, *v, *a), None)).collect()
     } else {
         let parts = parts_of(model, island);
-        let steps = integrated(model, state, island, time, (&parts[..], &solved.multipliers[..]))?;
+        let start =
+            Pressed { loaded: &loaded(&links, &solved, &island.inverse_mass), loads: &solved.multipliers };
+        let steps = integrated(model, state, island, time, &parts, start)?;
         match part_ends(model, island, &parts, &steps) {
             None => steps,
-            Some(end) if end > time + LEAST_OF_STEP * steps[0].0.step => {
-                steps.into_iter().map(|(segment, column)| (Segment { end, ..segment }, column)).collect()
-            }
-            Some(_) => integrated(model, state, island, time, (&[][..], &solved.multipliers[..]))?,
+            Some(end) if end > time + LEAST_OF_STEP * steps[0].0.step => until(steps, end),
+            // Where the border of two parts lies at the very start, no step across it is short enough: one up to it.
+            Some(end) => match integrated(model, state, island, time, &[], start) {
+                Err((_, SegmentError::Stalled)) if end > time => until(steps, end),
+                across => across?,
+            },
         }
     };
     for (body, (segment, _)) in island.ids.iter().zip(&steps) {
@@ -225,6 +235,11 @@ pub(super) fn level(model: &Model, state: &mut State, island: &mut Island) {
     book(state, island, &before);
 }
 
+/// The same steps, of which only the beginning counts.
+fn until(steps: Vec<Step>, end: f64) -> Vec<Step> {
+    steps.into_iter().map(|(segment, column)| (Segment { end, ..segment }, column)).collect()
+}
+
 /// The edge or corner that each contact of an island lies on, in their order, where it is one of several of its shape.
 pub(super) fn parts_of(model: &Model, island: &Island) -> Vec<Option<Part>> {
     let part = |(pair, surface): &(Pair, Surface)| {
@@ -234,20 +249,31 @@ pub(super) fn parts_of(model: &Model, island: &Island) -> Vec<Option<Part>> {
     island.contacts.iter().map(part).collect()
 }
 
+/// How the contacts of an island are pressed at the start of a step.
+#[derive(Clone, Copy)]
+struct Pressed<'a> {
+    loaded: &'a [bool],
+    loads: &'a [f64],
+}
+
 /// One step of the integrator for the bodies of an island, on the parts of the shapes on which they are now: beyond these
-/// the way would bend, where no polynomial follows it. `loads` are those at the start.
+/// the way would bend, where no polynomial follows it. What bears a load at the start is held; the others may part, for
+/// together they may allow no motion at all: of two balls that fill a slot, one pressed on the other, the one that is
+/// carried along must be free to leave its wall.
 fn integrated(
     model: &Model,
     state: &mut State,
     island: &Island,
     time: f64,
-    (parts, loads): (&[Option<Part>], &[f64]),
+    parts: &[Option<Part>],
+    start_pressed: Pressed<'_>,
 ) -> Result<Vec<Step>, (u32, SegmentError)> {
     let hint = step_hint(state, island.ids[0], time);
     let Island { ids, x, v, contacts, inverse_mass } = island;
     let start = CoupledStart { model, ids, time, x, v, hint, longest: f64::INFINITY, noise: 1.0 };
     // Of each node, once it was looked at; at first those of the node before.
     let mut loads_at: [Option<Loads>; SERIES + 1] = Default::default();
+    let Pressed { loaded, loads } = start_pressed;
     let mut last = Loads::from(loads);
     let step = coupled_step(&start, &mut state.counters.force_evaluations, |node, time, x, v| {
         let mut motion = free(model, ids, inverse_mass, time, (x, v));
@@ -258,7 +284,7 @@ fn integrated(
             .collect();
         let size = largest(&motion, &links);
         let loads = loads_at[node].get_or_insert_with(|| last.clone());
-        stay_on_from(loads, &links, inverse_mass, &mut motion);
+        hold_from(loads, &links, loaded, inverse_mass, &mut motion);
         last.clone_from(loads);
         (motion, size)
     });

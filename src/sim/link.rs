@@ -11,7 +11,8 @@ pub(super) struct Link {
     pub b: Option<usize>,
     /// Unit vector from the first body into the other.
     pub towards: DVec3,
-    /// 0 for velocities; for accelerations what keeps the bodies on a curved surface, ≥ 0.
+    /// 0 for velocities after an impact; for accelerations what keeps the bodies on a curved surface, ≥ 0; for velocities
+    /// in a step of a group how fast they may come nearer, or less than 0 where they must part.
     pub limit: f64,
 }
 
@@ -34,7 +35,7 @@ impl Solved {
 impl Link {
     /// Length of all that decides how fast it enters, of that of its bodies.
     pub fn size_of(&self, sizes: &[f64]) -> f64 {
-        sizes[self.a] + self.b.map_or(0.0, |b| sizes[b]) + self.limit
+        sizes[self.a] + self.b.map_or(0.0, |b| sizes[b]) + self.limit.abs()
     }
 
     /// How fast a motion enters the other body, in the units of the motion; negative when it leaves.

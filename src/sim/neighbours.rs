@@ -328,11 +328,15 @@ fn touch_of(model: &Model, state: &State, body: u32, member: u32, margins: f64, 
     let radius = model.radius(member.body) + margins * member.margin;
     let place = Target::Sphere(Ball { path: Path { segment: &segment, series: None }, radius });
     let ball = ball(model, state, body);
-    if predict::gap(ball, place, time).distance <= 0.0 {
+    let is_in = |time: f64| predict::gap(ball, place, time).distance <= 0.0;
+    if is_in(time) {
         return Some(time);
     }
-    // It may have been there before, earlier on this segment.
-    let first = predict::first_contact(ball, place, f64::NEG_INFINITY)?;
+    // It may have been there before, earlier on this segment; or when that began, and be on its way back.
+    let since = [f64::NEG_INFINITY, dense.listed_since, time];
+    let start = ball.path.segment.start;
+    let from = since.into_iter().find(|since| !is_in(since.max(start))).unwrap_or(time);
+    let first = predict::first_contact(ball, place, from)?;
     if first >= time { Some(first) } else { predict::first_contact(ball, place, time) }
 }
 
@@ -344,13 +348,19 @@ pub(super) fn predict_later(model: &Model, state: &mut State, pair: Pair, time: 
     }
     let gap = gap_of(model, state, pair, time);
     let slack = predict::touch_tolerance(gap.point, larger_radius(model, pair));
-    let integrated = pair.dynamic().map(|body| state.path(body)).filter(|path| path.series.is_some());
+    let integrated: Vec<Path<'_>> =
+        pair.dynamic().map(|body| state.path(body)).filter(|path| path.series.is_some()).collect();
+    let bounds = integrated.iter().map(|path| -path.segment.acceleration_bound);
     // Past an edge the surfaces bend apart now, and no more when they have parted: only the drive bounds.
-    let bend =
-        integrated.map(|path| -path.segment.acceleration_bound).fold(gap.bend.min(gap.drive), f64::min);
-    if let Some(tau) = first_root(slack, gap.rate, bend) {
-        predict_pair(model, state, pair, time + tau.max(LATER_ROUNDING * time), time);
+    let bend = bounds.fold(gap.bend.min(gap.drive), f64::min);
+    let Some(tau) = first_root(slack, gap.rate, bend) else { return };
+    let mut from = time + tau.max(LATER_ROUNDING * time);
+    if !integrated.is_empty() {
+        let (ball, target) = (ball(model, state, pair.first()), target(model, state, pair.b));
+        let Some(deeper) = predict::first_deeper(ball, target, time) else { return };
+        from = from.max(deeper);
     }
+    predict_pair(model, state, pair, from, time);
 }
 
 /// Whether two dynamic bodies touch to within the contact distance and do not part: an impact on one of them is

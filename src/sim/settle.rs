@@ -38,7 +38,7 @@ pub(super) fn settle(model: &Model, group: &mut Group) -> Vec<Settling> {
 
     drop_unloaded(group, &mut candidates, &free, &links);
 
-    level(group, &mut candidates, &free);
+    level(group, &mut candidates, &free, &links);
     candidates.iter().map(|candidate| candidate.settling(group)).collect()
 }
 
@@ -215,9 +215,13 @@ fn drop_unloaded(group: &Group, candidates: &mut Vec<Candidate>, free: &[DVec3],
 /// Takes what still parts at lasting contacts out of the velocities, closing none of the others. Contacts that could
 /// be kept only at the cost of other motion do not last yet: a ball on a plate would stop at every step that lifts it.
 /// Levelling stands for what the forces do until the bodies are back, and may do no more.
-fn level(group: &mut Group, candidates: &mut Vec<Candidate>, free: &[DVec3]) {
-    let strongest = free.iter().map(|a| a.length()).fold(0.0, f64::max);
+fn level(group: &mut Group, candidates: &mut Vec<Candidate>, free: &[DVec3], links: &[Link]) {
     loop {
+        // A light ball under a heavy one on a slope is squeezed out quicker than any force alone would drive it.
+        let held = held_links(candidates, links);
+        let mut motion = free.to_vec();
+        enter_none(&held, &group.bodies.inverse_mass, &mut motion);
+        let strongest = free.iter().chain(&motion).map(|a| a.length()).fold(0.0, f64::max);
         let mut lasts = vec![false; group.members.len()];
         candidates.iter().for_each(|candidate| lasts[candidate.member] = true);
         let levelled = group.levelled(&lasts);

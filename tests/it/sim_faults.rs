@@ -296,3 +296,52 @@ fn a_ball_dropped_beside_a_seam_comes_to_rest() {
         );
     }
 }
+
+#[test]
+fn balls_that_fill_a_slot_beside_an_attractor_slide_on() {
+    // Seen: steps of 1e-7 s. Right: one ball, pressed on the other, leaves its wall as that slides ahead. Cause: all
+    // three contacts were held, which allow two balls in one line between two walls no motion at all.
+    let wall = |id: i64, x: f64, towards: f64| {
+        plate(id, dvec3(x, 0.0, 0.0), dvec3(0.0, towards * FRAC_PI_2, 0.0), 10.0, 10.0).bounce(0.0)
+    };
+    let scene = empty()
+        .gravity(-G)
+        .attractor(dvec3(0.7, -3.1, 0.4), 40.0)
+        .body(wall(1, -1.0, 1.0))
+        .body(wall(2, 1.0, -1.0))
+        .body(ball(3, dvec3(-0.5, 0.5, 0.0), DVec3::Y).bounce(0.0))
+        .body(ball(4, dvec3(0.5, 0.5, 0.0), DVec3::Y).bounce(0.0));
+    let (sim, events) = watched(&scene, 0.5, 100);
+    let segments = sim.counters().segments;
+    assert!(segments < 1000, "{segments} segments, {} events", events.len());
+    let left = state_of(&sim, 3).position;
+    assert!(left.x > -0.5 + 1e-6 && left.x < -0.4, "{left}");
+}
+
+#[test]
+fn a_light_ball_is_squeezed_out_under_a_heavy_one_on_a_slope() {
+    // Seen: an impact every 2e-8 s. Right: the contacts last. Cause: what levelling may change was told from the applied
+    // accelerations, and the light ball's is ten times as large.
+    let slope = 0.1_f64;
+    let normal = dvec3(-libm::sin(slope), libm::cos(slope), 0.0);
+    let first = 0.5 * normal;
+    for ratio in [1e3, 1e6, 1e12] {
+        let scene = empty()
+            .gravity(-G)
+            .body(plate(1, DVec3::ZERO, dvec3(-FRAC_PI_2, slope, 0.0), 30.0, 30.0).bounce(0.55))
+            .body(ball(2, first, DVec3::ZERO))
+            .body(ball(3, first + DVec3::Y, DVec3::ZERO).mass(ratio));
+        let mut sim = simulation(&scene);
+        sim.begin(0.01);
+        let mut impacts = 0;
+        while let Some(event) = sim.next_event().expect("a run without faults") {
+            impacts += usize::from(event.kind == EventKind::Impact);
+            assert!(impacts < 100, "masses 1 : {ratio:e}: stalled at t = {}", sim.time());
+        }
+        // Two bodies without friction on a slope: the heavy one all but falls, and carries the light one along.
+        let energy = sim.energy();
+        assert!(energy.residual.is_some_and(|residual| residual.abs() <= 1e-12), "{energy:?}");
+        let apart = state_of(&sim, 3).position.distance(state_of(&sim, 2).position);
+        assert!(apart >= 1.0 - 1e-12, "masses 1 : {ratio:e}: {apart}");
+    }
+}

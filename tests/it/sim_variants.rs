@@ -1,6 +1,6 @@
 //! Contact scenes from seeds: each ends, gains no energy, overlaps nothing, and closes its books.
 
-use polyscene::scene::{Scene, Shape};
+use polyscene::scene::{ForceKind, Scene, Shape};
 use polyscene::sim::{Progress, Simulation};
 use polyscene::study::OverlapMonitor;
 
@@ -31,6 +31,37 @@ const PORTION: u32 = 64;
 /// Looks at the energy and at all pairs, besides those at events.
 const LOOKS: u32 = 100;
 
+/// What the energy of an integrated motion may climb by within a segment, as a part of the largest energy so far: the
+/// polynomial is as good as the tolerance of the field, and at the ends of segments better. Without fields motions have
+/// closed forms.
+const CLIMB_IN_FIELDS: f64 = 1e-10;
+const CLIMB: f64 = 1e-11;
+
+/// Energy residual that is allowed; and where bodies beside an attractor are stepped, for a leapfrog follows its pull.
+const RESIDUAL: f64 = 1e-9;
+const RESIDUAL_OF_STEPS_IN_FIELDS: f64 = 1e-6;
+
+/// Scenes that were wrong once: family, seed and number among its variants.
+const ONCE_WRONG: &[(Family, u64, usize)] = &[
+    // Seen: "the integrator's step has shrunk to nothing". Cause: a kink of drag nearer to the start of a step than time
+    // can tell was another one.
+    (Family::Pit, 18, 5),
+    // Seen: a look every 3e-8 s at a wall along which a ball falls in air, so that time all but stands still. Cause:
+    // it closed by rounding, and when to look again was told from the acceleration in any direction.
+    (Family::Slot, 33, 5),
+    (Family::Slot, 120, 5),
+    // Seen: a residual of 1e-3 in steps in air. Cause: drag was booked by its law along the way, not as it was applied.
+    (Family::Slot, 195, 5),
+    // Seen: overlaps of 2e-1 and 3e-3 radii and energy won. Cause: sweeps do not get anywhere between masses of 1 : 1e4
+    // and more, and a ball between a wall and a heavy one was to part from that as fast as it came.
+    (Family::Slot, 38, 6),
+    (Family::Slot, 49, 6),
+    (Family::Slot, 291, 6),
+    // Seen: an overlap of 4e-2 radii with a ball that was not stepped. Cause: when it began its flight it was within
+    // reach of the stepped one, and was expected back at that place only.
+    (Family::Slot, 943, 0),
+];
+
 /// The worst that was seen on the way.
 #[derive(Clone, Copy, Debug, Default)]
 struct Seen {
@@ -39,7 +70,7 @@ struct Seen {
     climb: f64,
     /// Deepest overlap over what is allowed.
     overlap: f64,
-    /// Largest energy residual.
+    /// Largest energy residual over what is allowed.
     residual: f64,
 }
 
@@ -50,7 +81,9 @@ fn watch(scene: &ContactScene) -> Result<Seen, String> {
     let at_start = monitor.worst_now(&sim);
     let radius = smallest_radius(&scene.scene);
     let steps = Promise::of_steps(&sim, &scene.scene);
-    let (mut seen, mut lowest, mut calls) = (Seen::default(), f64::INFINITY, 0);
+    let in_field = has_field(&scene.scene);
+    let climb = if in_field { CLIMB_IN_FIELDS } else { CLIMB };
+    let (mut seen, mut lowest, mut largest, mut calls) = (Seen::default(), f64::INFINITY, 0.0_f64, 0);
     for look in 1..=LOOKS {
         sim.begin(scene.until * f64::from(look) / f64::from(LOOKS));
         loop {
@@ -66,13 +99,17 @@ fn watch(scene: &ContactScene) -> Result<Seen, String> {
                 let energy = sim.energy();
                 let total = energy.total.ok_or("no total energy")?;
                 lowest = lowest.min(total);
-                let scale = energy.kinetic + energy.potential.unwrap_or(0.0).abs();
-                let promise = Promise { overlap: 1e-9 * radius, climb: 1e-11 * scale.max(f64::MIN_POSITIVE) };
+                // Where a potential is zero is arbitrary.
+                largest = largest.max(energy.kinetic + energy.potential.unwrap_or(0.0).abs());
+                let promise =
+                    Promise { overlap: 1e-9 * radius, climb: climb * largest.max(f64::MIN_POSITIVE) };
                 let promise = if was_stepped(&sim) { steps } else { promise };
+                let residual =
+                    if in_field && was_stepped(&sim) { RESIDUAL_OF_STEPS_IN_FIELDS } else { RESIDUAL };
                 seen.climb = seen.climb.max((total - lowest) / promise.climb);
                 // Steps of a seam may reach into the ball from the start.
                 seen.overlap = seen.overlap.max((monitor.worst_now(&sim) - at_start) / promise.overlap);
-                seen.residual = seen.residual.max(energy.residual.ok_or("no residual")?.abs());
+                seen.residual = seen.residual.max(energy.residual.ok_or("no residual")?.abs() / residual);
             }
             if progress == Progress::Done {
                 break;
@@ -83,6 +120,11 @@ fn watch(scene: &ContactScene) -> Result<Seen, String> {
         }
     }
     Ok(seen)
+}
+
+/// Whether there is a field whose pull changes from place to place.
+fn has_field(scene: &Scene) -> bool {
+    scene.forces.iter().any(|force| matches!(force.kind, ForceKind::GravityPoint { .. }))
 }
 
 fn smallest_radius(scene: &Scene) -> f64 {
@@ -99,25 +141,37 @@ fn fault_of(scene: &ContactScene) -> Option<String> {
         Ok(seen) => seen,
         Err(reason) => return Some(format!("{}: {reason}", scene.what)),
     };
-    let holds = seen.climb <= 1.0 && seen.overlap <= 1.0 && seen.residual <= 1e-9;
+    let holds = seen.climb <= 1.0 && seen.overlap <= 1.0 && seen.residual <= 1.0;
     (!holds).then(|| format!("{}: {seen:?}", scene.what))
 }
 
-/// Every scene of a family ends, gains no energy, overlaps nothing, and closes its books, at every size, in air and in a
-/// field, and with masses of every ratio.
+/// A scene at every size, in air or in a field, and with masses of some ratio.
+fn variants(family: Family, seed: u64) -> Vec<ContactScene> {
+    let plain = contact_scene(family, seed);
+    let mut variants: Vec<ContactScene> =
+        SIZES.iter().map(|(length, time)| scaled(&plain, *length, *time)).collect();
+    // One of them for each seed: they take longer.
+    let (length, time) = SIZES[seed as usize % SIZES.len()];
+    let by = Surroundings::ALL[1 + seed as usize % 3];
+    variants.push(scaled(&surrounded(&plain, by), length, time));
+    let ratio = [1e2, 1e4, 1e6, 1e9, 1e12][seed as usize % 5];
+    variants.push(weighted(&plain, ratio, seed));
+    variants
+}
+
+/// Every scene of a family ends, gains no energy, overlaps nothing, and closes its books.
 fn holds(family: Family) {
-    let mut faults = Vec::new();
-    for seed in seeds() {
-        let plain = contact_scene(family, seed);
-        faults.extend(SIZES.iter().filter_map(|(length, time)| fault_of(&scaled(&plain, *length, *time))));
-        // One of them for each seed: they take longer.
-        let (length, time) = SIZES[seed as usize % SIZES.len()];
-        let by = Surroundings::ALL[1 + seed as usize % 3];
-        faults.extend(fault_of(&scaled(&surrounded(&plain, by), length, time)));
-        let ratio = [1e2, 1e4, 1e6, 1e9, 1e12][seed as usize % 5];
-        faults.extend(fault_of(&weighted(&plain, ratio, seed)));
-    }
+    let faults: Vec<String> =
+        seeds().flat_map(|seed| variants(family, seed)).filter_map(|scene| fault_of(&scene)).collect();
     assert!(faults.is_empty(), "{} scenes:\n{}", faults.len(), faults.join("\n"));
+}
+
+#[test]
+fn what_was_wrong_once_holds() {
+    let scenes =
+        ONCE_WRONG.iter().map(|(family, seed, number)| variants(*family, *seed).swap_remove(*number));
+    let faults: Vec<String> = scenes.filter_map(|scene| fault_of(&scene)).collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
 #[test]

@@ -7,17 +7,20 @@ use glam::DVec3;
 use super::clock::step_end;
 use super::contact::{contact, is_far, stays_apart};
 use super::data::{Component, Dense, Member, Role, Work};
+use super::direct::solve_at_once;
 use super::list::{self, NearOutsiders};
 use super::membership::{Left, component, frozen_with, take_in};
 use super::rest::{freeze, is_still, leave, record_group};
 use super::start::{law_of, read_bodies};
 use super::stepped::{Contact, FIXED, Moving, velocity};
-use super::sweep::{closing, solve};
+use super::sweep::{Solution, closing, solve};
 use super::tolerance::{
-    MOST_ATTEMPTS, MOST_HALVINGS, MOST_HALVINGS_TO_CONVERGE, MOST_SWEEPS, TURN_IN_A_STEP, WAY_OF_RADIUS,
+    BUDGET, MOST_ATTEMPTS, MOST_HALVINGS, MOST_HALVINGS_TO_CONVERGE, MOST_SWEEPS, TURN_IN_A_STEP,
+    WAY_OF_RADIUS,
 };
 use crate::sim::account::angular;
 use crate::sim::body::BodyId;
+use crate::sim::books::book_kick;
 use crate::sim::capture::{hold, is_swallowed};
 use crate::sim::event::EventKind;
 use crate::sim::fault::{Fault, fault};
@@ -272,6 +275,16 @@ fn reached_frozen(
     if numbers.is_empty() { Vec::new() } else { frozen_with(dense, &numbers) }
 }
 
+/// What bodies that meet in a step do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Landing {
+    OrRebound,
+    /// Nobody parts from another by its impulse. Velocities without any motion are allowed then, and the nearest allowed
+    /// ones have no more energy than the free ones. Where several contacts of a body rebound, Newton's law may give
+    /// energy: one between a wall and a heavy body throws that back as fast as it came itself.
+    Only,
+}
+
 /// Solves the step of a component, halved as often as it takes.
 fn propose(model: &Model, state: &mut State, dense: &Dense, component: &mut Component, time: f64) {
     component.work.halvings = halvings(model, dense, component);
@@ -283,10 +296,17 @@ fn propose(model: &Model, state: &mut State, dense: &Dense, component: &mut Comp
         let spin = model.plan.spin.then_some(|body| state.spin(body, time));
         work.rubbing.begin(&work.bodies, spin);
         find_contacts(model, state, dense, component, h);
-        solve_contacts(model, state, dense, component, h);
+        solve_contacts(model, state, dense, component, h, Landing::OrRebound);
         let work = &mut component.work;
         state.counters.sweeps += work.solution.sweeps as u64;
-        if work.solution.has_converged || work.halvings >= MOST_HALVINGS_TO_CONVERGE {
+        if work.solution.has_converged {
+            return;
+        }
+        if work.halvings >= MOST_HALVINGS_TO_CONVERGE {
+            if work.solution.gains {
+                solve_contacts(model, state, dense, component, h, Landing::Only);
+                state.counters.sweeps += component.work.solution.sweeps as u64;
+            }
             return;
         }
         state.counters.halvings += 1;
@@ -314,10 +334,22 @@ fn find_contacts(model: &Model, state: &State, dense: &Dense, component: &mut Co
 }
 
 /// Solves the contacts that were found, with those that wait as soon as they are seen to meet.
-fn solve_contacts(model: &Model, state: &State, dense: &Dense, component: &mut Component, h: f64) {
+fn solve_contacts(
+    model: &Model,
+    state: &State,
+    dense: &Dense,
+    component: &mut Component,
+    h: f64,
+    landing: Landing,
+) {
     let Component { near, work: Work { bodies, contacts, waiting, system, rubbing, solution, .. }, .. } =
         component;
-    let meet = |moving: &[Moving], contacts: &mut Vec<Contact>| {
+    let land = |contact: Contact| match landing {
+        Landing::OrRebound => contact,
+        Landing::Only => Contact { bound: contact.bound.min(0.0), ..contact },
+    };
+    contacts.iter_mut().for_each(|contact| *contact = land(*contact));
+    let mut meet = |moving: &[Moving], contacts: &mut Vec<Contact>| {
         waiting.retain(|place| {
             let near = &near[*place as usize];
             if stays_apart(near, bodies, |body| velocity(&moving[body as usize]), h) {
@@ -325,12 +357,20 @@ fn solve_contacts(model: &Model, state: &State, dense: &Dense, component: &mut C
             }
             let contact = contact(model, state, near, 0.0, bodies, h);
             let met = contact.filter(|contact| contact.gap + h * closing(contact, moving) < 0.0);
-            contacts.extend(met);
+            contacts.extend(met.map(land));
             met.is_none()
         });
     };
     let law = |contact: &Contact| law_of(model, dense, contact);
-    *solution = solve(system, contacts, bodies, h, (rubbing, &law), meet);
+    *solution = solve(system, contacts, bodies, h, (rubbing, &law), &mut meet);
+    let is_deep = |contact: &Contact| -contact.gap > BUDGET * contact.radius;
+    // The friction of a step is found by sweeps alone.
+    if rubbing.is_empty()
+        && (!solution.has_converged || contacts.iter().any(is_deep))
+        && let Some(found) = solve_at_once(system, contacts, bodies, h, &mut meet)
+    {
+        *solution = Solution { sweeps: solution.sweeps, ..found };
+    }
 }
 
 /// How often the step of a component must be halved at least: as often as the last, or once less after an easy one,
@@ -403,7 +443,7 @@ fn carry_out(
             Segment { end: work.end, constrained: true, ..Segment::ballistic(time, body.x, v, body.a) };
         check(model, &segment).map_err(|error| fault(model, body.body, time, error))?;
         if body.kick != DVec3::ZERO {
-            state.account.force_impulse.add(model.mass(body.body) * body.kick);
+            book_kick(model, state, body.body, time, body.kick, body.v - body.kick);
         }
         place(model, state, body.body, segment, None);
     }

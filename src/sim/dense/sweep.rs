@@ -16,6 +16,8 @@ pub(super) struct Solution {
     pub loss: f64,
     pub sweeps: usize,
     pub has_converged: bool,
+    /// Whether it gains so much that it must not be taken.
+    pub gains: bool,
 }
 
 /// A contact as the sweeps read it: one cache line.
@@ -73,7 +75,9 @@ pub(super) fn solve(
     let (mut extra, mut solution) = (0, Solution::default());
     let loss = loop {
         if solution.sweeps >= MOST_SWEEPS {
-            break system.judge(contacts, h, rubbing).0;
+            let loss = system.judge(contacts, h, rubbing).0;
+            solution.gains = gains_grossly(loss, bodies);
+            break loss;
         }
         let worst = system.sweep(solution.sweeps % 2 == 1, rubbing);
         solution.sweeps += 1;
@@ -89,9 +93,9 @@ pub(super) fn solve(
             continue;
         }
         let (loss, sinks) = system.judge(contacts, h, rubbing);
-        let gains_grossly = -loss > GROSS_GAIN * allowed;
-        solution.has_converged = !sinks && !gains_grossly;
-        let is_tired = extra >= SWEEPS_AGAINST_GAIN && !gains_grossly;
+        solution.gains = gains_grossly(loss, bodies);
+        solution.has_converged = !sinks && !solution.gains;
+        let is_tired = extra >= SWEEPS_AGAINST_GAIN && !solution.gains;
         if is_tired || (!sinks && -loss <= allowed) {
             break loss;
         }
@@ -125,6 +129,13 @@ impl System {
         self.changes.resize(self.rows.len(), 0.0);
         self.directions.resize(self.rows.len(), 0.0);
         self.norm = 0.0;
+    }
+
+    /// Takes a solution that was found elsewhere.
+    pub fn adopt(&mut self, impulses: Vec<f64>, motion: &[DVec3], inverse_mass: &[f64]) {
+        self.impulses = impulses;
+        self.moving.clear();
+        self.moving.extend(motion.iter().zip(inverse_mass).map(|(u, inverse)| [u.x, u.y, u.z, *inverse]));
     }
 
     /// One sweep; gives the largest change in units of what is tolerated.
@@ -164,7 +175,7 @@ impl System {
 
     /// Energy that the contacts take, −½ Σ λ (s + s'), J, and whether one of them goes deeper than the overlap
     /// budget allows.
-    fn judge(&self, contacts: &[Contact], h: f64, rubbing: &Rubbing) -> (f64, bool) {
+    pub fn judge(&self, contacts: &[Contact], h: f64, rubbing: &Rubbing) -> (f64, bool) {
         let (mut loss, mut sinks) = (0.0, false);
         for (contact, impulse) in contacts.iter().zip(&self.impulses) {
             let rate = closing(contact, &self.moving);
@@ -181,7 +192,7 @@ impl System {
 }
 
 /// A body as the applied forces alone move it.
-fn free(body: &Stepped, h: f64) -> Moving {
+pub(super) fn free(body: &Stepped, h: f64) -> Moving {
     let u = if body.inverse_mass > 0.0 { body.u + h * body.a } else { body.u };
     [u.x, u.y, u.z, body.inverse_mass]
 }
@@ -245,6 +256,11 @@ fn dot(one: [f64; 4], other: [f64; 4]) -> f64 {
 pub(super) fn closing(contact: &Contact, moving: &[Moving]) -> f64 {
     let of = |body: u32| moving.get(body as usize).map_or(DVec3::ZERO, velocity);
     contact.normal.dot(of(contact.b) - of(contact.a))
+}
+
+/// Whether contacts that take this energy, J, give so much that a step has not converged.
+pub(super) fn gains_grossly(loss: f64, bodies: &[Stepped]) -> bool {
+    -loss > GROSS_GAIN * allowed_gain(bodies)
 }
 
 /// Energy that what the sweeps leave may add, J.

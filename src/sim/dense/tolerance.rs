@@ -71,6 +71,12 @@ pub(super) const FINEST_OF_DEEP: f64 = 0.1;
 /// Sweeps before a step is halved.
 pub(super) const MOST_SWEEPS: usize = 400;
 
+/// Up to so many contacts of a step that does not converge, or in which one has used up its budget, are solved at once, which
+/// costs some n³:
+/// fewer leave what eight balls in a pit touch to sweeps, in which a light ball between heavy ones enters them; more take
+/// longer than shorter steps.
+pub(super) const MOST_SOLVED_AT_ONCE: usize = 48;
+
 /// More sweeps follow while a component gains more than this part of m·g·r of its smallest body, but no more than so
 /// many.
 pub(super) const GAIN: f64 = 1e-5;

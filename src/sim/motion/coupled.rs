@@ -74,7 +74,9 @@ pub(in crate::sim) fn coupled_step(
 impl CoupledStart<'_> {
     fn courses(&self, a0: &[DVec3]) -> Vec<Course> {
         let bodies = self.ids.iter().zip(self.v.iter().zip(a0));
-        bodies.map(|(body, (v, a))| Course { drag: drag_of(self.model, *body), v: *v, a: *a }).collect()
+        let course =
+            |body: u32, v: DVec3, a: DVec3| Course { time: self.time, drag: drag_of(self.model, body), v, a };
+        bodies.map(|(body, (v, a))| course(*body, *v, *a)).collect()
     }
 
     /// The step to try first, s.

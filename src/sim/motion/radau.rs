@@ -50,7 +50,7 @@ pub(super) fn radau_step(
     if !are_sound([a0, start.place.x, start.v].iter()) {
         return Err(SegmentError::NotFinite);
     }
-    let course = Course { drag: start.drag, v: start.v, a: a0 };
+    let course = Course { time: start.time, drag: start.drag, v: start.v, a: a0 };
     let first = first_step(start, a0, &mut field).min(start.limits.longest).min(course.resolved());
     let mut guess = start.previous.map(|(series, length)| extrapolate(series, first / length));
     let accepted = accept(

@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::tolerance::{KINK_AT_START, RESOLVED, RESOLVED_AFTER};
+use super::tolerance::{KINK_AT_START, RESOLUTION, RESOLVED, RESOLVED_AFTER};
 use crate::sim::force::Law;
 use crate::sim::model::Model;
 use crate::sim::segment::Series;
@@ -35,9 +35,11 @@ pub(super) enum Smooth {
     Until(f64),
 }
 
-/// A body on a step: velocity and acceleration at its start, and the drag of [`drag_of`].
+/// A body on a step: when it starts, velocity and acceleration there, and the drag of [`drag_of`].
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Course {
+    /// s.
+    pub time: f64,
     pub drag: f64,
     pub v: DVec3,
     pub a: DVec3,
@@ -91,7 +93,8 @@ impl Course {
         if self.v.dot(self.a) < 0.0 && end.v.dot(end.a) > 0.0 {
             let (s, apex) = self.apex(series, step, reach);
             if apex.is_negligible(apex.v) {
-                return if s > KINK_AT_START { Smooth::Until(s * step) } else { Smooth::Yes };
+                let is_at_start = s <= KINK_AT_START || s * step <= RESOLUTION * self.time.abs();
+                return if is_at_start { Smooth::Yes } else { Smooth::Until(s * step) };
             }
             distance = distance.min(apex.v.length() / apex.a.length());
         }

@@ -78,7 +78,7 @@ pub(super) const RESOLVED: f64 = 1.0;
 /// before the step was a little off, and a repetition would cost more than it gains.
 pub(super) const RESOLVED_AFTER: f64 = 1.5;
 
-/// A kink nearer to the start of a step than this part of it is the one at which the step began.
+/// A kink nearer to the start of a step than this part of it, or than [`RESOLUTION`], is the one at which the step began.
 pub(super) const KINK_AT_START: f64 = 1e-9;
 
 /// A step cut at a kink looks for it so far: the first look, along a step across it, is a little off.

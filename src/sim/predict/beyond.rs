@@ -16,6 +16,9 @@ pub(in crate::sim) fn first_beyond(
 ) -> Option<f64> {
     let segment = path.segment;
     let mut time = from;
+    // |direction·ẍ| ≤ A: along an edge it is next to nothing, whatever |ẍ| is.
+    let along = |way: DVec3| direction.dot(way).abs();
+    let bound = path.series.map_or(0.0, |series| series.b.iter().map(|b| along(*b)).sum()) + along(segment.a);
     loop {
         let distance = limit - direction.dot(path.position(time));
         let rate = -direction.dot(path.velocity(time));
@@ -25,8 +28,8 @@ pub(in crate::sim) fn first_beyond(
         if distance <= early {
             return Some(time);
         }
-        // |ẍ| ≤ A: the limit is not reached before distance + rate·δ − ½Aδ² = 0.
-        let step = first_root(distance, rate, -segment.acceleration_bound)?;
+        // The limit is not reached before distance + rate·δ − ½Aδ² = 0.
+        let step = first_root(distance, rate, -bound)?;
         if time + step > segment.end {
             return None;
         }

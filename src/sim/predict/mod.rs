@@ -15,6 +15,8 @@ mod tests;
 
 use glam::DVec3;
 
+use advance::Skip;
+
 use super::segment::{Path, Segment};
 use super::shape::{Convex, Plate, Shape};
 
@@ -59,6 +61,24 @@ pub(super) fn first_contact(ball: Ball<'_>, target: Target<'_>, from: f64) -> Op
         Target::Sphere(fixed) => sphere_sphere::first_contact(ball, fixed, from, || ball.tolerance()),
         Target::Plate(plate) => sphere_plate::first_contact(ball, plate, from),
         Target::Convex(shape, at) => sphere_convex::first_contact(ball, shape, at, from),
+    }
+}
+
+/// From when on two surfaces that touch at a time may be nearer than then by more than the rounding of places; `None` if
+/// they are not while both segments last. Bounds of the acceleration in any direction say next to nothing of that.
+pub(super) fn first_deeper(ball: Ball<'_>, target: Target<'_>, time: f64) -> Option<f64> {
+    let skip = match target {
+        Target::Dynamic(other) => {
+            sphere_sphere::skip_from(ball, other, ball.tolerance().max(other.tolerance()), time)
+        }
+        Target::Sphere(fixed) => sphere_sphere::skip_from(ball, fixed, ball.tolerance(), time),
+        Target::Plate(plate) => sphere_plate::skip(ball, plate, sphere_plate::slack(ball, plate), time),
+        Target::Convex(..) => Skip::Unknown,
+    };
+    match skip {
+        Skip::Never => None,
+        Skip::Unknown => Some(time),
+        Skip::To(later) => Some(later),
     }
 }
 

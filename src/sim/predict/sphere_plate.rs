@@ -43,7 +43,7 @@ pub(super) fn gap(ball: Ball<'_>, plate: &Plate, time: f64) -> Gap {
 }
 
 /// Rounding of the distance between the two, m.
-fn slack(ball: Ball<'_>, plate: &Plate) -> f64 {
+pub(super) fn slack(ball: Ball<'_>, plate: &Plate) -> f64 {
     ball.tolerance().max(touch_tolerance(plate.center, ball.radius))
 }
 

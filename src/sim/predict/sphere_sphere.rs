@@ -25,17 +25,30 @@ pub(super) fn first_contact(a: Ball<'_>, b: Ball<'_>, from: f64, slack: impl FnO
     let (seg_a, seg_b) = (a.path.segment, b.path.segment);
     let from = seg_a.start.max(seg_b.start).max(from);
     let until = seg_a.end.min(seg_b.end);
-    let parabolas = a.path.series.is_none() && b.path.series.is_none();
-    if parabolas && seg_a.a == seg_b.a {
+    if are_parabolas(a, b) && seg_a.a == seg_b.a {
         let position = b.path.position(from) - a.path.position(from);
         let (velocity_a, velocity_b) = (a.path.velocity(from), b.path.velocity(from));
         let speeds = || velocity_a.length() + velocity_b.length();
         let tau = straight(position, velocity_b - velocity_a, speeds, a.radius + b.radius);
         return tau.map(|tau| from + tau).filter(|time| *time <= until);
     }
-    let acceleration_bound = (!parabolas).then(|| relative_bound(a.path, b.path));
-    let search = Span { from, until, acceleration_bound, slack: slack() };
+    let search = span(a, b, from, until, slack());
     advance(search, |time| gap(a, b, time), |time| skip(a, b, search, time))
+}
+
+fn are_parabolas(a: Ball<'_>, b: Ball<'_>) -> bool {
+    a.path.series.is_none() && b.path.series.is_none()
+}
+
+fn span(a: Ball<'_>, b: Ball<'_>, from: f64, until: f64, slack: f64) -> Span {
+    let acceleration_bound = (!are_parabolas(a, b)).then(|| relative_bound(a.path, b.path));
+    Span { from, until, acceleration_bound, slack }
+}
+
+/// [`skip`] until one of the segments ends.
+pub(super) fn skip_from(a: Ball<'_>, b: Ball<'_>, slack: f64, time: f64) -> Skip {
+    let until = a.path.segment.end.min(b.path.segment.end);
+    skip(a, b, span(a, b, time, until, slack), time)
 }
 
 /// What isolating the root tells from a time on.

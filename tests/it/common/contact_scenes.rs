@@ -116,6 +116,7 @@ pub fn weighted(from: &ContactScene, ratio: f64, seed: u64) -> ContactScene {
 pub fn scaled(from: &ContactScene, length: f64, time: f64) -> ContactScene {
     let mut scene = from.scene.clone();
     scene.map.size *= length;
+    scene.params.core_radius *= length;
     for body in &mut scene.bodies {
         body.position *= length;
         match &mut body.shape {
