@@ -47,7 +47,7 @@ pub const COMMANDS: &[CommandInfo] = &[
         2,
         "save_recording",
         "Save recording…",
-        "Writes what makes this very run again, with edits and bookmarks, to send it to someone",
+        "Writes what makes this very run again, to send it on",
     )
     .session(SessionCommand::SaveRecording)
     .when(Session::can_reset),
@@ -260,7 +260,7 @@ pub const COMMANDS: &[CommandInfo] = &[
         1,
         "next_event_of_selection",
         "Next event of the selection",
-        "Goes on to the next event of the selected body, or between the two that are selected",
+        "Goes on to the next event of what is selected",
     )
     .session(SessionCommand::Travel(TravelCommand::NextEventOfSelection))
     .keys(&[Shortcut::shift(Key::Char('N'))])
@@ -270,7 +270,7 @@ pub const COMMANDS: &[CommandInfo] = &[
         1,
         "event_back_of_selection",
         "Event of the selection back",
-        "Goes back to the last event of the selected body, or between the two that are selected",
+        "Goes back to the last event of what is selected",
     )
     .session(SessionCommand::Travel(TravelCommand::EventBackOfSelection))
     .keys(&[Shortcut::shift(Key::Char('B'))])
@@ -278,22 +278,16 @@ pub const COMMANDS: &[CommandInfo] = &[
     row(Menu::Simulation, 1, "run_to_rest", "Run until all is at rest", "Goes on until no body moves")
         .session(SessionCommand::Travel(TravelCommand::RunToRest))
         .when(Session::can_run),
-    row(
-        Menu::Simulation,
-        1,
-        "play_back",
-        "Play backwards",
-        "Plays what is recorded backwards, or stops",
-    )
-    .session(SessionCommand::Travel(TravelCommand::PlayBack))
-    .keys(&[Shortcut::shift(Key::Space)])
-    .when(Session::can_step_back),
+    row(Menu::Simulation, 1, "play_back", "Play backwards", "Plays what is recorded backwards, or stops")
+        .session(SessionCommand::Travel(TravelCommand::PlayBack))
+        .keys(&[Shortcut::shift(Key::Space)])
+        .when(Session::can_step_back),
     row(
         Menu::Simulation,
         1,
         "go_to_begin",
         "To the begin of the recording",
-        "Shows the start, or the first time that is kept; the recording stays",
+        "Shows the first time that is kept",
     )
     .session(SessionCommand::Travel(TravelCommand::GoToBegin))
     .keys(&[Shortcut::plain(Key::Home)])
@@ -322,16 +316,10 @@ pub const COMMANDS: &[CommandInfo] = &[
     row(Menu::Simulation, 2, "slower", "Slower", "Halves the speed of playing")
         .session(SessionCommand::Slower)
         .keys(&[Shortcut::plain(Key::Char('-'))]),
-    row(
-        Menu::Simulation,
-        3,
-        "add_bookmark",
-        "Add bookmark",
-        "Marks this moment on the timeline, to come back to it",
-    )
-    .session(SessionCommand::Travel(TravelCommand::AddBookmark))
-    .keys(&[Shortcut::plain(Key::Char('K'))])
-    .when(Session::can_run),
+    row(Menu::Simulation, 3, "add_bookmark", "Add bookmark", "Marks this moment on the timeline")
+        .session(SessionCommand::Travel(TravelCommand::AddBookmark))
+        .keys(&[Shortcut::plain(Key::Char('K'))])
+        .when(Session::can_run),
     row(Menu::Simulation, 3, "next_bookmark", "Next bookmark", "Shows the next moment that is marked")
         .session(SessionCommand::Travel(TravelCommand::NextBookmark))
         .keys(&[Shortcut::plain(Key::Char(']'))])
@@ -351,7 +339,7 @@ pub const COMMANDS: &[CommandInfo] = &[
         3,
         "bring_back",
         "Bring back the replaced future",
-        "Takes the last edit in the past out of the run: what was recorded before it comes after that moment again",
+        "Takes the last edit in the past out of the run: what it replaced is the future again",
     )
     .session(SessionCommand::Travel(TravelCommand::BringBack))
     .when(Session::can_bring_back),

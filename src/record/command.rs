@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::file::WriteRequest;
 use super::ledger::EventRow;
 use super::moment::Moment;
-use super::paths::PathSpan;
+use super::ways::PathSpan;
 use crate::scene::{NodeKey, Scene};
 use crate::sim::{Method, SimEdit};
 

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::file::Written;
 use super::ledger::{EventRow, Ledger};
-use super::paths::{BodyPath, ImpactBody};
+use super::ways::{BodyPath, ImpactBody};
 use crate::scene::{Diagnostic, NodeKey};
 use crate::sim::{ContactState, Counters, Energy, Method, Momentum, Plan, Rotation, SteppedBodies, Tiling};
 

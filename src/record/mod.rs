@@ -24,6 +24,7 @@ mod task;
 mod thread;
 mod ticks;
 mod track;
+mod ways;
 
 use std::sync::Arc;
 
@@ -36,8 +37,9 @@ pub use inline::InlineRunner;
 pub use ledger::{EventRow, Ledger};
 pub use limits::{Exceeded, Limits, Watch, advance};
 pub use moment::Moment;
-pub use paths::{BodyPath, ImpactBody, PathSpan};
+
 pub use thread::ThreadRunner;
+pub use ways::{BodyPath, ImpactBody, PathSpan};
 
 /// Something that runs a simulation on command. The application uses a thread, so that no scene can
 /// freeze the window; tests run inline, so that nothing sleeps.

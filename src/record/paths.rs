@@ -4,25 +4,8 @@ use glam::DVec3;
 
 use super::moment::Moment;
 use super::run::Run;
-use crate::scene::NodeKey;
+use super::ways::{BodyPath, ImpactBody, PathSpan};
 use crate::sim::{BodyRef, Piece};
-
-/// How much of the ways is wanted.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PathSpan {
-    /// Seconds of model time before and after the moment shown.
-    pub past: f64,
-    pub future: f64,
-}
-
-/// The way of one body as places on it, m.
-#[derive(Clone, Debug, PartialEq)]
-pub struct BodyPath {
-    pub key: NodeKey,
-    /// Up to the place of the moment shown, and from it.
-    pub past: Vec<DVec3>,
-    pub future: Vec<DVec3>,
-}
 
 /// Bodies whose ways are given; of more the first.
 const MOST_BODIES: usize = 300;
@@ -75,20 +58,6 @@ fn add_places(piece: &Piece, start: f64, end: f64, places: &mut Vec<DVec3>) {
             places.push(place);
         }
     }
-}
-
-/// A body at an impact.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ImpactBody {
-    pub key: NodeKey,
-    /// Centre, m.
-    pub position: DVec3,
-    /// m/s.
-    pub before: DVec3,
-    pub after: DVec3,
-    /// Where it is at the start of the Δt and, if that is recorded, at its end, m.
-    pub at_start: DVec3,
-    pub at_end: Option<DVec3>,
 }
 
 /// Bodies of one impact that are shown.

@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use super::frame::{BodyFrame, ContactFrame, Frame, Lag, Recorded};
 use super::ledger::EventRow;
-use super::paths::{PathSpan, at_impact, paths};
+use super::paths::{at_impact, paths};
 use super::recorder::RunRecorder;
 use super::run::Run;
+use super::ways::PathSpan;
 use crate::sim::{BodyRef, BodyState, Simulation};
 
 /// Occupied tiles that a frame lists; an overlay that shows more would be a solid block.

@@ -7,10 +7,10 @@ use std::sync::Arc;
 use super::command::{Goal, RunCommand};
 use super::file::{Written, write};
 use super::frame::RunState;
-use super::paths::PathSpan;
 use super::recording::BUDGET;
 use super::run::Run;
 use super::task::{Play, Task};
+use super::ways::PathSpan;
 use crate::scene::{Diagnostic, Scene};
 use crate::sim::{Method, SimEdit, Simulation};
 

@@ -5,18 +5,15 @@ use std::collections::BTreeSet;
 use glam::DVec3;
 
 use super::clock::step_end;
-use super::contact::{contact, is_far, stays_apart};
 use super::data::{Component, Dense, Member, Role, Work};
-use super::direct::solve_at_once;
 use super::list::{self, NearOutsiders};
 use super::membership::{Left, component, frozen_with, take_in};
 use super::rest::{freeze, is_still, leave, record_group};
-use super::start::{law_of, read_bodies};
-use super::stepped::{Contact, FIXED, Moving, velocity};
-use super::sweep::{Solution, closing, solve};
+use super::solve::{Landing, find_contacts, solve_contacts};
+use super::start::read_bodies;
+use super::stepped::{Contact, FIXED, velocity};
 use super::tolerance::{
-    BUDGET, MOST_ATTEMPTS, MOST_HALVINGS, MOST_HALVINGS_TO_CONVERGE, MOST_SWEEPS, TURN_IN_A_STEP,
-    WAY_OF_RADIUS,
+    MOST_ATTEMPTS, MOST_HALVINGS, MOST_HALVINGS_TO_CONVERGE, MOST_SWEEPS, TURN_IN_A_STEP, WAY_OF_RADIUS,
 };
 use crate::sim::account::angular;
 use crate::sim::body::BodyId;
@@ -275,16 +272,6 @@ fn reached_frozen(
     if numbers.is_empty() { Vec::new() } else { frozen_with(dense, &numbers) }
 }
 
-/// What bodies that meet in a step do.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Landing {
-    OrRebound,
-    /// Nobody parts from another by its impulse. Velocities without any motion are allowed then, and the nearest allowed
-    /// ones have no more energy than the free ones. Where several contacts of a body rebound, Newton's law may give
-    /// energy: one between a wall and a heavy body throws that back as fast as it came itself.
-    Only,
-}
-
 /// Solves the step of a component, halved as often as it takes.
 fn propose(model: &Model, state: &mut State, dense: &Dense, component: &mut Component, time: f64) {
     component.work.halvings = halvings(model, dense, component);
@@ -311,65 +298,6 @@ fn propose(model: &Model, state: &mut State, dense: &Dense, component: &mut Comp
         }
         state.counters.halvings += 1;
         work.halvings += 1;
-    }
-}
-
-/// Finds what touches or may come to in a step of length h, and what is too far off for that.
-fn find_contacts(model: &Model, state: &State, dense: &Dense, component: &mut Component, h: f64) {
-    let Component { near, work: Work { bodies, contacts, waiting, .. }, .. } = component;
-    contacts.clear();
-    waiting.clear();
-    for (place, near) in (0..).zip(near.iter()) {
-        let force = dense.pairs[near.listed as usize].force;
-        if force == 0.0 && is_far(near, bodies, h) {
-            waiting.push(place);
-            continue;
-        }
-        match contact(model, state, near, force, bodies, h) {
-            Some(contact) if contact.is_lazy => waiting.push(place),
-            Some(contact) => contacts.push(contact),
-            None => {}
-        }
-    }
-}
-
-/// Solves the contacts that were found, with those that wait as soon as they are seen to meet.
-fn solve_contacts(
-    model: &Model,
-    state: &State,
-    dense: &Dense,
-    component: &mut Component,
-    h: f64,
-    landing: Landing,
-) {
-    let Component { near, work: Work { bodies, contacts, waiting, system, rubbing, solution, .. }, .. } =
-        component;
-    let land = |contact: Contact| match landing {
-        Landing::OrRebound => contact,
-        Landing::Only => Contact { bound: contact.bound.min(0.0), ..contact },
-    };
-    contacts.iter_mut().for_each(|contact| *contact = land(*contact));
-    let mut meet = |moving: &[Moving], contacts: &mut Vec<Contact>| {
-        waiting.retain(|place| {
-            let near = &near[*place as usize];
-            if stays_apart(near, bodies, |body| velocity(&moving[body as usize]), h) {
-                return true;
-            }
-            let contact = contact(model, state, near, 0.0, bodies, h);
-            let met = contact.filter(|contact| contact.gap + h * closing(contact, moving) < 0.0);
-            contacts.extend(met.map(land));
-            met.is_none()
-        });
-    };
-    let law = |contact: &Contact| law_of(model, dense, contact);
-    *solution = solve(system, contacts, bodies, h, (rubbing, &law), &mut meet);
-    let is_deep = |contact: &Contact| -contact.gap > BUDGET * contact.radius;
-    // The friction of a step is found by sweeps alone.
-    if rubbing.is_empty()
-        && (!solution.has_converged || contacts.iter().any(is_deep))
-        && let Some(found) = solve_at_once(system, contacts, bodies, h, &mut meet)
-    {
-        *solution = Solution { sweeps: solution.sweeps, ..found };
     }
 }
 

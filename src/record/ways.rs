@@ -1,0 +1,36 @@
+//! What is shown of motion beside the present: the ways of bodies, and how they come to an impact and leave it.
+
+use glam::DVec3;
+
+use crate::scene::NodeKey;
+
+/// How much of the ways is wanted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathSpan {
+    /// Seconds of model time before and after the moment shown.
+    pub past: f64,
+    pub future: f64,
+}
+
+/// The way of one body as places on it, m.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodyPath {
+    pub key: NodeKey,
+    /// Up to the place of the moment shown, and from it.
+    pub past: Vec<DVec3>,
+    pub future: Vec<DVec3>,
+}
+
+/// A body at an impact.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ImpactBody {
+    pub key: NodeKey,
+    /// Centre, m.
+    pub position: DVec3,
+    /// m/s.
+    pub before: DVec3,
+    pub after: DVec3,
+    /// Where it is at the start of the Δt and, if that is recorded, at its end, m.
+    pub at_start: DVec3,
+    pub at_end: Option<DVec3>,
+}
