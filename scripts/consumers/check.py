@@ -18,6 +18,7 @@ TOLERANCE = 1e-6
 # After a second of flight, m.
 FLIGHT_TOLERANCE = 1e-3
 SKIPPED = 3
+HERE = pathlib.Path(__file__).resolve().parent
 
 failures = []
 
@@ -157,10 +158,39 @@ def check_mujoco(program, work, scenes):
                 place = data.qpos[model.jnt_qposadr[joint] :][:3]
                 if far(speed, z_up(body.velocity)) or far(place, z_up(body.position)):
                     fail(f"{scene}: body {at} starts with {speed} at {place}")
+    foreign(mujoco, program, work)
     for name in ["hard/throw.xml", "drag.xml"]:
         flight(mujoco, program, work, next(s for s in scenes if str(s).endswith("/" + name)))
     for one, other in [(1, 1), (1, 0.8), (0.9, 0.5), (0.5, 0.4)]:
         bounce(mujoco, program, work, one, other)
+
+
+def foreign(mujoco, program, work):
+    """A file of MuJoCo's own kind: what the program reads is what MuJoCo makes of it, the scene moved as a whole."""
+    source, path = HERE.parents[1] / "scenes/foreign/balls.mjcf.xml", work / "foreign.xml"
+    command = [program, "import", str(source), "--force", "-o", str(path)]
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode != 0:
+        return fail(f"{source}: import: {done.stderr}")
+    model = mujoco.MjModel.from_xml_path(str(source))
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, 0)
+    mujoco.mj_forward(model, data)
+    is_ball = lambda geom: model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_SPHERE and model.geom_contype[geom]
+    geoms = [geom for geom in range(model.ngeom) if is_ball(geom)]
+    balls = [body for body in bodies(path) if body.radius is not None]
+    if len(geoms) != len(balls):
+        fail(f"{source}: {len(balls)} balls instead of {len(geoms)}")
+    shift = [a - b for a, b in zip(z_up(balls[0].position), data.geom_xpos[geoms[0]])]
+    for geom, ball in zip(geoms, balls):
+        place = [a + b for a, b in zip(data.geom_xpos[geom], shift)]
+        body = model.geom_bodyid[geom]
+        if far(place, z_up(ball.position)) or abs(model.geom_size[geom][0] - ball.radius) > TOLERANCE:
+            fail(f"{source}: a ball is at {ball.position}, of {ball.radius} m")
+        if ball.dynamic:
+            speed = data.qvel[model.jnt_dofadr[model.body_jntadr[body]] :][:3]
+            if far(speed, z_up(ball.velocity)) or abs(model.body_mass[body] / ball.mass - 1) > TOLERANCE:
+                fail(f"{source}: a ball has {ball.velocity} m/s and {ball.mass} kg")
 
 
 def flight(mujoco, program, work, scene):

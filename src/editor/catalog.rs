@@ -35,6 +35,14 @@ pub const COMMANDS: &[CommandInfo] = &[
     row(
         Menu::File,
         2,
+        "import",
+        "Import…",
+        "Opens a scene of MuJoCo or Gazebo as a new one, and says what it loses",
+    )
+    .session(SessionCommand::Import),
+    row(
+        Menu::File,
+        2,
         "export",
         "Export…",
         "Writes the scene for another program, and says what it cannot be told",

@@ -18,6 +18,8 @@ pub enum Command {
 pub enum SessionCommand {
     New(NumberStyle),
     Open,
+    /// A scene of another program, which [`Self::Open`] takes too.
+    Import,
     OpenSample(usize),
     OpenRecent(usize),
     Save,

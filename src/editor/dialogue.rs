@@ -46,6 +46,7 @@ pub enum Answer {
     Later,
     LeaveOut,
     Reload,
+    NotNow,
     Cancel,
 }
 
@@ -124,8 +125,8 @@ impl Question {
         match self {
             Self::UnsavedChanges { .. } => &[Answer::Save, Answer::Discard, Answer::Cancel],
             Self::ChangedOnDisk { .. } => &[Answer::SaveAs, Answer::Overwrite, Answer::Cancel],
-            Self::Reload { unsaved: false, .. } => &[Answer::Reload, Answer::Later],
-            Self::Reload { unsaved: true, .. } => &[Answer::Later, Answer::Reload],
+            Self::Reload { unsaved: false, .. } => &[Answer::Reload, Answer::NotNow],
+            Self::Reload { unsaved: true, .. } => &[Answer::NotNow, Answer::Reload],
             Self::CannotImport { .. } => &[Answer::Cancel, Answer::LeaveOut],
             Self::Recover(_) => &[Answer::Restore, Answer::Later, Answer::Discard],
         }
@@ -137,7 +138,8 @@ impl Question {
             Self::UnsavedChanges { .. } | Self::ChangedOnDisk { .. } | Self::CannotImport { .. } => {
                 Answer::Cancel
             }
-            Self::Recover(_) | Self::Reload { .. } => Answer::Later,
+            Self::Recover(_) => Answer::Later,
+            Self::Reload { .. } => Answer::NotNow,
         }
     }
 }
@@ -153,6 +155,7 @@ impl Answer {
             Self::Later => "Ask later",
             Self::LeaveOut => "Open without it",
             Self::Reload => "Read it again",
+            Self::NotNow => "Not now",
             Self::Cancel => "Cancel",
         }
     }

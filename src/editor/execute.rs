@@ -68,7 +68,7 @@ impl Session {
         }
         match command {
             SessionCommand::New(style) => self.ask_then(Intent::New(style)),
-            SessionCommand::Open => self.talk.requests.push(Request::ChooseOpenPath),
+            SessionCommand::Open | SessionCommand::Import => self.talk.requests.push(Request::ChooseOpenPath),
             SessionCommand::OpenSample(index) => self.ask_then(Intent::OpenSample(index)),
             SessionCommand::OpenRecent(index) => return self.open_recent(index),
             SessionCommand::Save => self.save(None),

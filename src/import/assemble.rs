@@ -11,7 +11,7 @@ use crate::scene::{Body, Force, ForceKind, Map, Motion, NodeKey, Scene, Shape, S
 const PLATE: f64 = 0.02;
 
 /// How far a plane without end reaches, in the size of what lies around it.
-const REACH: f64 = 5.0;
+const REACH: f64 = 3.0;
 
 /// Radii per tile of the search grid, and the most tiles of an axis.
 const TILE: f64 = 4.0;

@@ -183,7 +183,7 @@ fn a_change_on_disk_is_told_once() {
     std::fs::write(&path, SCENE.replace("the second", "another")).unwrap();
     bench.act(Action::LookAtDisk);
     assert!(matches!(bench.session.question(), Some(Question::Reload { .. })));
-    bench.act(Action::Answer(Answer::Later));
+    bench.act(Action::Answer(Answer::NotNow));
     bench.act(Action::LookAtDisk);
     assert!(bench.session.question().is_none());
     bench.run(SessionCommand::Reload);

@@ -34,7 +34,7 @@ fn a_change_is_offered_with_what_is_different() {
     for line in ["scene.xml", "• 7: mass", "• 8 removed", "• 9 added", "• 1: strength or place"] {
         assert!(question.text().contains(line), "{line} in {}", question.text());
     }
-    assert_eq!(question.answers(), [Answer::Reload, Answer::Later]);
+    assert_eq!(question.answers(), [Answer::Reload, Answer::NotNow]);
     let mut only_comment = Bench::open();
     let path = only_comment.session.path().expect("a path").to_owned();
     std::fs::write(path, SCENE.replace("the second", "another")).expect("the file");
@@ -79,7 +79,7 @@ fn unsaved_work_is_not_lost_by_reading_again() {
     let Some(question @ Question::Reload { unsaved: true, .. }) = bench.session.question() else {
         panic!("no offer")
     };
-    assert_eq!(question.answers()[0], Answer::Later, "the harmless answer is first");
+    assert_eq!(question.answers()[0], Answer::NotNow, "the harmless answer is first");
     bench.act(Action::Answer(Answer::Reload));
     assert_eq!(bench.bytes(), other());
     bench.run(SessionCommand::Undo);
@@ -89,7 +89,7 @@ fn unsaved_work_is_not_lost_by_reading_again() {
 #[test]
 fn an_offer_is_made_once_for_each_change() {
     let mut bench = changed();
-    bench.act(Action::Answer(Answer::Later));
+    bench.act(Action::Answer(Answer::NotNow));
     bench.act(Action::LookAtDisk);
     assert!(bench.session.question().is_none());
     assert!(bench.bytes() == SCENE && !bench.session.is_dirty());
@@ -97,7 +97,7 @@ fn an_offer_is_made_once_for_each_change() {
     std::fs::write(&path, other().replace("-1,6", "-3,7")).expect("the file");
     bench.act(Action::LookAtDisk);
     assert!(matches!(bench.session.question(), Some(Question::Reload { .. })));
-    bench.act(Action::Answer(Answer::Later));
+    bench.act(Action::Answer(Answer::NotNow));
     // Saving still asks before it replaces what is newer.
     bench.change(7, BodyChange::Mass(5.0));
     bench.run(SessionCommand::Save);

@@ -186,3 +186,24 @@ fn a_double_click_in_the_save_dialog_asks_before_it_replaces() {
     window.click_role(Role::Button, "Save");
     assert_ne!(std::fs::read_to_string(&other).unwrap(), "work of another day");
 }
+
+/// As when another program has saved the file and the window gets the keyboard back.
+#[test]
+fn a_file_that_another_program_saved_is_offered_for_reading_again() {
+    let mut window = Window::bytes(SCENE.as_bytes());
+    let other = SCENE.replace("<Weight F32=\"2\" />", "<Weight F32=\"5\" />");
+    std::fs::write(window.path(), &other).unwrap();
+    window.harness.event(egui::Event::WindowFocused(true));
+    window.harness.run();
+    assert!(window.has("Read the file again?") && window.has_containing("8: mass"), "{:?}", window.labels());
+    window.click_role(Role::Button, "Not now");
+    window.harness.event(egui::Event::WindowFocused(true));
+    window.harness.run();
+    assert!(!window.has("Read the file again?"), "it is asked once");
+    std::fs::write(window.path(), other.replace("F32=\"5\"", "F32=\"6\"")).unwrap();
+    window.harness.event(egui::Event::WindowFocused(true));
+    window.harness.run();
+    window.click_role(Role::Button, "Read it again");
+    assert!(matches!(window.body("8").motion, polyscene::scene::Motion::Dynamic { mass, .. } if mass == 6.0));
+    assert!(!window.harness.state().session().is_dirty() && window.has_containing("8: mass"));
+}

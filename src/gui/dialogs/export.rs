@@ -1,5 +1,7 @@
 //! File ▸ Export: for which program, which moment or motion, and beforehand what becomes of everything in the scene.
 
+use std::path::Path;
+
 use egui::{
     Align, Button, Context, DragValue, Id, Layout, Modal, ProgressBar, RichText, ScrollArea, Ui, vec2,
 };
@@ -204,6 +206,7 @@ impl ExportDialog {
             let file = ExportedFile { extension: format.extension, bytes: exported.bytes.clone().into() };
             decision = Decision::Write(FileRequest::ExportScene {
                 file,
+                directory: context.session.path().and_then(Path::parent).map(Path::to_owned),
                 file_name: format!("{}.{}", stem(context.session.title()), format.extension),
             });
         }

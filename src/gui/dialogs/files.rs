@@ -19,6 +19,7 @@ pub enum FileRequest {
     /// The scene for another program.
     ExportScene {
         file: ExportedFile,
+        directory: Option<PathBuf>,
         file_name: String,
     },
     /// The run, for others to run it again.
@@ -115,10 +116,11 @@ impl FileDialogs for NativeFileDialogs {
                 .add_filter(format!("*.{}", extensions.join(", *.")), &extensions);
             let chosen = match request {
                 FileRequest::Open => dialog.pick_file(),
-                FileRequest::Export { file_name, .. }
-                | FileRequest::ExportScene { file_name, .. }
-                | FileRequest::Recording { file_name } => dialog.set_file_name(file_name).save_file(),
-                FileRequest::Save { directory, file_name } => {
+                FileRequest::Export { file_name, .. } | FileRequest::Recording { file_name } => {
+                    dialog.set_file_name(file_name).save_file()
+                }
+                FileRequest::Save { directory, file_name }
+                | FileRequest::ExportScene { directory, file_name, .. } => {
                     let dialog = dialog.set_file_name(file_name);
                     match directory {
                         Some(directory) => dialog.set_directory(directory).save_file(),

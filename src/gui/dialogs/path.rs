@@ -34,10 +34,13 @@ impl PathDialog {
         let beside = session.path().and_then(Path::parent).map(Path::to_owned);
         let (folder, text) = match &request {
             FileRequest::Open => (beside, String::new()),
-            FileRequest::Save { directory, file_name } => (directory.clone().or(beside), file_name.clone()),
-            FileRequest::Export { file_name, .. }
-            | FileRequest::ExportScene { file_name, .. }
-            | FileRequest::Recording { file_name } => (beside, file_name.clone()),
+            FileRequest::Save { directory, file_name }
+            | FileRequest::ExportScene { directory, file_name, .. } => {
+                (directory.clone().or(beside), file_name.clone())
+            }
+            FileRequest::Export { file_name, .. } | FileRequest::Recording { file_name } => {
+                (beside, file_name.clone())
+            }
         };
         let folder = folder.or_else(|| std::env::current_dir().ok()).unwrap_or_else(|| PathBuf::from("/"));
         let mut dialog = Self {
