@@ -21,7 +21,7 @@ pub(super) struct Keyframe {
     after_edit: bool,
 }
 
-/// Keyframes in order, the first at the start of what is kept.
+/// Keyframes in order, the first at the start.
 #[derive(Debug, Default)]
 pub(super) struct Keyframes {
     list: Vec<Keyframe>,
@@ -99,13 +99,6 @@ impl Keyframes {
             index % 2 == 1 || index > last || key.after_edit
         });
         self.list.len() < before
-    }
-
-    /// Drops those before a time but the last of them, which is where going on from there begins; gives its moment.
-    pub(super) fn drop_before(&mut self, time: f64) -> Option<Moment> {
-        let old = self.list.partition_point(|key| key.at.time <= time);
-        self.list.drain(..old.saturating_sub(1));
-        self.list.first().map(|first| first.at)
     }
 
     /// Bytes that they take, about.

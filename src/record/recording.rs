@@ -196,14 +196,14 @@ impl Recording {
         }
     }
 
-    /// Drops a share of the time known, from its beginning.
+    /// Drops a share of the time known, from its beginning. The first keyframe stays, so that any moment after can still be
+    /// gone on from.
     fn drop_oldest(&mut self) {
         let time = self.from.time + DROPPED_SHARE * (self.end.time - self.from.time);
-        let Some(first) = self.keyframes.drop_before(time) else { return };
-        self.from = first;
-        self.ledger.drop_before(first.time);
-        self.ticks.drop_before(first.time);
-        let freed: usize = self.tracks.iter_mut().map(|track| track.drop_before(first.time)).sum();
+        self.from = Moment::after_all(self.ledger.number_until(time), time);
+        self.ledger.drop_before(time);
+        self.ticks.drop_before(time);
+        let freed: usize = self.tracks.iter_mut().map(|track| track.drop_before(time)).sum();
         self.track_bytes = self.track_bytes.saturating_sub(freed);
     }
 

@@ -4,6 +4,7 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
+use crate::gui_files::Dropped;
 use crate::gui_support::Window;
 
 fn type_time(window: &mut Window, text: &str) {
@@ -155,4 +156,38 @@ fn the_events_of_the_selection_are_gone_through() {
     assert!(before.event_count < frame.event_count);
     assert!(before.event(before.event_count).is_some_and(|row| row.concerns(key)));
     assert!(!before.at_impact.is_empty());
+}
+
+/// Send a colleague the moment that goes wrong: the recording is saved with its bookmark, and opened runs the same again.
+#[test]
+fn a_recording_is_saved_and_opened_as_the_same_run() {
+    let mut window = Window::thesis();
+    type_time(&mut window, "2.5");
+    window.key(Key::Home);
+    window.key(Key::N);
+    window.key(Key::K);
+    let recorded = window.frame().clone();
+    window.menu("File", "Save recording…");
+    assert!(window.has_containing("scene.psrec") || window.has("Save"), "the dialog is open");
+    window.click_role(Role::Button, "Save");
+    let file = window.folder.path().join("scene.psrec");
+    assert!(file.exists(), "it lies beside the scene");
+    let text = std::fs::read_to_string(&file).unwrap();
+
+    let mut other = Window::empty();
+    std::fs::write(other.folder.path().join("sent.psrec"), text).unwrap();
+    let sent = Dropped(other.folder.path().join("sent.psrec"));
+    other.harness.input_mut().dropped_files.push(std::sync::Arc::new(sent));
+    other.harness.run_steps(6);
+    let frame = other.frame().clone();
+    assert_eq!((frame.time, frame.ledger.len()), (2.5, recorded.ledger.len()));
+    assert!(other.has("Bookmark 1: event 1"));
+    other.key(Key::Home);
+    other.key(Key::CloseBracket);
+    let again = other.frame().clone();
+    assert_eq!((again.event_count, again.time), (recorded.event_count, recorded.time));
+    let places =
+        |frame: &polyscene::record::Frame| frame.bodies.iter().map(|body| body.position).collect::<Vec<_>>();
+    assert_eq!(places(&again), places(&recorded));
+    assert!(!other.harness.state().session().is_dirty());
 }

@@ -73,13 +73,12 @@ impl FilterBar {
 
     /// The filter, narrowed to the Δt being looked at where that is asked for.
     pub fn wanted(&self, context: &AppContext<'_>) -> Filter {
-        let step = context.session.frame().step.filter(|_| self.only_step);
-        match step {
-            Some((from, to)) => {
-                Filter { from: self.filter.from.max(from), to: self.filter.to.min(to), ..self.filter.clone() }
-            }
-            None => self.filter.clone(),
+        if !self.only_step {
+            return self.filter.clone();
         }
+        // Before the first Δt there is nothing to list.
+        let (from, to) = context.session.frame().step.unwrap_or((f64::INFINITY, f64::INFINITY));
+        Filter { from: self.filter.from.max(from), to: self.filter.to.min(to), ..self.filter.clone() }
     }
 
     /// All bodies, or those that are selected when it is chosen.
