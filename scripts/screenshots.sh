@@ -34,6 +34,7 @@ window part-dialog '' 'build:room,select_none,rack'
 window handles thesis-appendix-2 'select:28100,tool_turn,maximize_view'
 window export drag 'export:sdf'
 window xml bounce 'show_xml,select:Ball'
+window timeline thesis-appendix-2 'dt:1/20,step_forward*80,add_bookmark,select:15921,event_back_of_selection*4,overlay:trails'
 window accuracy thesis-appendix-2 'tab:accuracy,study'
 window tiles gas 'dt:1/10,step_forward*20,view_perspective,overlay:tiles,maximize_view'
 

@@ -5,7 +5,7 @@ use super::frame::Jump;
 use crate::sim::{Event, Simulation};
 
 /// Adding energies up costs a look at all bodies: with more than this, not every event is looked at.
-const BODIES_PER_EVENT: u64 = 64;
+const BODIES_PER_EVENT: u64 = 16;
 
 #[derive(Clone, Debug, Default)]
 pub(super) struct Drift {

@@ -7,6 +7,8 @@ use crate::sim::{Simulation, Snapshot};
 const BODY_SIZE: usize = 1024;
 /// Segments to simulate again at most between two keyframes, for a scene of few bodies.
 const SEGMENTS_APART: u64 = 500;
+/// And for each body of a larger one: a copy of it takes about as long as a segment, so that copies cost some per cent.
+const SEGMENTS_PER_BODY: u64 = 20;
 
 #[derive(Debug)]
 pub(super) struct Keyframe {
@@ -48,7 +50,7 @@ impl Keyframes {
 
     /// Whether enough was simulated since the last one for another.
     pub(super) fn is_due(&self, simulation: &Simulation) -> bool {
-        let apart = SEGMENTS_APART.max(2 * simulation.dynamic_count() as u64);
+        let apart = SEGMENTS_APART.max(SEGMENTS_PER_BODY * simulation.dynamic_count() as u64);
         let segments = simulation.counters().segments;
         self.list.last().is_none_or(|last| segments >= last.segments + apart)
     }
