@@ -154,20 +154,30 @@ impl File {
         self.accessors.len() - 1
     }
 
+    /// Rising times of keys, s.
+    fn times(&mut self, times: &[f32]) -> usize {
+        let bytes: Vec<u8> = times.iter().flat_map(|time| time.to_le_bytes()).collect();
+        let (first, last, count) = (times.first(), times.last(), times.len());
+        let about =
+            json!({ "componentType": 5126, "type": "SCALAR", "count": count, "min": [first], "max": [last] });
+        self.accessor(&bytes, None, about)
+    }
+
     /// One channel for each moving body; the nodes of bodies come first, in their order.
     fn add_animation(&mut self, source: &Source<'_>, motion: &Animation) {
         let start = motion.frames.from;
-        let times: Vec<f32> = motion.times.iter().map(|time| (time - start) as f32).collect();
-        let bytes: Vec<u8> = times.iter().flat_map(|time| time.to_le_bytes()).collect();
-        let (first, last) = (times.first().copied(), times.last().copied());
-        let about = json!({ "componentType": 5126, "type": "SCALAR", "count": times.len(), "min": [first], "max": [last] });
-        let input = self.accessor(&bytes, None, about);
+        let shared = self.times(&motion.times.iter().map(|time| (time - start) as f32).collect::<Vec<_>>());
         let (mut samplers, mut channels) = (Vec::new(), Vec::new());
         for (node, body) in source.scene.bodies.iter().enumerate() {
-            let Some(track) = motion.of(body.key) else { continue };
-            let places = track.iter().flat_map(|sample| sample.position.as_vec3().to_array());
+            let Some(keys) = motion.keys(body.key) else { continue };
+            let input = if motion.is_smooth(body.key) {
+                shared
+            } else {
+                self.times(&keys.iter().map(|(time, _)| (time - start) as f32).collect::<Vec<_>>())
+            };
+            let places = keys.iter().flat_map(|(_, place)| place.as_vec3().to_array());
             let bytes: Vec<u8> = places.flat_map(f32::to_le_bytes).collect();
-            let about = json!({ "componentType": 5126, "type": "VEC3", "count": track.len() });
+            let about = json!({ "componentType": 5126, "type": "VEC3", "count": keys.len() });
             let output = self.accessor(&bytes, None, about);
             channels.push(
                 json!({ "sampler": samplers.len(), "target": { "node": node, "path": "translation" } }),
@@ -333,7 +343,9 @@ fn fate(aspect: Aspect) -> Fate {
         Aspect::TimeSpeed => dropped("an animation goes by model time"),
         Aspect::Solver => dropped("settings of this program's core"),
         Aspect::Viewpoints => kept("as cameras"),
-        Aspect::Motion => approximated("as an animation from 0 s on, along straight lines between frames"),
+        Aspect::Motion => approximated(
+            "as an animation from 0 s on, along straight lines between the frames and the events of a body",
+        ),
         Aspect::Comments | Aspect::Unknown => no_meaning(),
     }
 }

@@ -5,7 +5,7 @@ use rustc_hash::FxHashMap;
 
 use super::error::ExportError;
 use crate::scene::{Document, Edit, EditError, NodeKey};
-use crate::sim::{BodyRef, Progress, Simulation, as_start};
+use crate::sim::{BodyRef, Event, Progress, Simulation, as_start};
 
 /// Which part of a run is exported. Times in s.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,6 +29,9 @@ const SLIVER: f64 = 1e-6;
 
 /// Samples of bodies: a gigabyte of text, and half of that in memory.
 const MOST_SAMPLES: f64 = 1e7;
+
+/// Events kept between frames, likewise; later ones are left out.
+const MOST_CORNERS: usize = 2_000_000;
 
 /// Predictions between two looks at whether to go on.
 const PREDICTIONS: u32 = 256;
@@ -71,7 +74,15 @@ pub struct Animation {
     pub frames: Frames,
     /// s.
     pub times: Vec<f64>,
-    tracks: FxHashMap<NodeKey, Vec<Sample>>,
+    tracks: FxHashMap<NodeKey, Track>,
+}
+
+#[derive(Clone, Debug, Default)]
+struct Track {
+    /// One for each time.
+    samples: Vec<Sample>,
+    /// Places at events of this body, where its way has a corner: rising times, s, and m.
+    corners: Vec<(f64, DVec3)>,
 }
 
 /// A body at one time: m, m/s.
@@ -84,7 +95,30 @@ pub struct Sample {
 impl Animation {
     /// One sample for each time; `None` for a body that never moves.
     pub fn of(&self, key: NodeKey) -> Option<&[Sample]> {
-        self.tracks.get(&key).map(Vec::as_slice)
+        self.tracks.get(&key).map(|track| track.samples.as_slice())
+    }
+
+    /// Times and places between which straight lines are near the way of a body: the frames, and its events between
+    /// them. Times are told apart as 32-bit numbers from the first frame on.
+    pub fn keys(&self, key: NodeKey) -> Option<Vec<(f64, DVec3)>> {
+        let track = self.tracks.get(&key)?;
+        let mut corners = track.corners.iter().copied().peekable();
+        let since = |time: f64| (time - self.frames.from) as f32;
+        let mut keys: Vec<(f64, DVec3)> = Vec::with_capacity(self.times.len() + track.corners.len());
+        for (time, sample) in self.times.iter().zip(&track.samples) {
+            while let Some(corner) = corners.next_if(|(at, _)| since(*at) < since(*time)) {
+                if keys.last().is_none_or(|(last, _)| since(*last) < since(corner.0)) {
+                    keys.push(corner);
+                }
+            }
+            keys.push((*time, sample.position));
+        }
+        Some(keys)
+    }
+
+    /// Whether a body has no event between the frames.
+    pub fn is_smooth(&self, key: NodeKey) -> bool {
+        self.tracks.get(&key).is_none_or(|track| track.corners.is_empty())
     }
 }
 
@@ -118,7 +152,7 @@ pub(super) fn simulated(
     let end = frames.map_or(from, |frames| frames.to);
     let mut part = |sim: &Simulation, events| go_on(if end > 0.0 { sim.time() / end } else { 1.0 }, events);
     let mut events = 0;
-    advance(&mut sim, from, &mut events, &mut part)?;
+    advance(&mut sim, from, &mut events, &mut part, &mut |_, _| {})?;
     let start = with_state_of(document, &sim)?;
     let motion = frames.map(|frames| record(&mut sim, frames, &mut events, &mut part)).transpose()?;
     Ok((start, motion))
@@ -141,17 +175,27 @@ fn record(
         return Err(ExportError::Frames(text));
     }
     let times = frames.times();
-    let mut tracks: Vec<Vec<Sample>> = bodies.iter().map(|_| Vec::with_capacity(times.len())).collect();
+    let index: FxHashMap<BodyRef, usize> = bodies.iter().enumerate().map(|(at, body)| (*body, at)).collect();
+    let mut tracks = vec![Track::default(); bodies.len()];
+    let mut room = MOST_CORNERS;
     for time in &times {
-        advance(sim, *time, events, go_on)?;
+        advance(sim, *time, events, go_on, &mut |sim, event| {
+            for body in [Some(event.a), event.b].into_iter().flatten() {
+                let place = index.get(&body).zip(sim.state(body));
+                if let (Some((at, state)), 1..) = (place, room) {
+                    room -= 1;
+                    tracks[*at].corners.push((event.time, state.position));
+                }
+            }
+        })?;
         for (track, body) in tracks.iter_mut().zip(&bodies) {
             if let Some(state) = sim.state(*body) {
-                track.push(Sample { position: state.position, velocity: state.velocity });
+                track.samples.push(Sample { position: state.position, velocity: state.velocity });
             }
         }
     }
     let keys = bodies.iter().map(|body| sim.key(*body));
-    let tracks = keys.zip(tracks).filter(|(_, track)| track.len() == times.len()).collect();
+    let tracks = keys.zip(tracks).filter(|(_, track)| track.samples.len() == times.len()).collect();
     Ok(Animation { frames, times, tracks })
 }
 
@@ -160,12 +204,16 @@ fn advance(
     until: f64,
     events: &mut u64,
     go_on: &mut dyn FnMut(&Simulation, u64) -> bool,
+    on_event: &mut dyn FnMut(&Simulation, &Event),
 ) -> Result<(), ExportError> {
     sim.begin(until);
     loop {
         match sim.work(PREDICTIONS) {
             Ok(Progress::Done) => return Ok(()),
-            Ok(Progress::Event(_)) => *events += 1,
+            Ok(Progress::Event(event)) => {
+                *events += 1;
+                on_event(sim, &event);
+            }
             Ok(Progress::Working) => {}
             Err(fault) => return Err(ExportError::Fault(fault.to_string())),
         }

@@ -204,12 +204,12 @@ fn attributes(body: &Body, surfaces: &[Surface]) -> Vec<String> {
 
 /// Where a moving body is at each frame. An engine must follow that and not move it itself.
 fn time_samples(text: &mut String, body: &Body, motion: &Animation) {
-    let Some(track) = motion.of(body.key) else { return };
+    let Some(keys) = motion.keys(body.key) else { return };
     text.push_str("            bool physics:kinematicEnabled = 1\n");
     text.push_str("            double3 xformOp:translate.timeSamples = {\n");
-    for (time, sample) in motion.times.iter().zip(track) {
+    for (time, place) in keys {
         let code = (time - motion.frames.from) * motion.frames.fps;
-        let place = tuple(&sample.position.to_array());
+        let place = tuple(&place.to_array());
         let _ = writeln!(text, "                {}: {place},", number(code));
     }
     text.push_str("            }\n");
@@ -283,7 +283,7 @@ fn fate(aspect: Aspect) -> Fate {
         Aspect::Solver => dropped("settings of this program's core"),
         Aspect::Viewpoints => dropped("not written by this version"),
         Aspect::Motion => approximated(
-            "as time samples of kinematic bodies, along straight lines between frames; time code 0 is the first",
+            "as time samples of kinematic bodies, along straight lines between the frames and the events of a body; time code 0 is the first",
         ),
         Aspect::Comments | Aspect::Unknown => no_meaning(),
     }

@@ -355,10 +355,16 @@ fn motion_is_sampled_at_its_frames() {
     let animation = &json["animations"][0];
     assert_eq!(animation["channels"][0]["target"], serde_json::json!({ "node": 0, "path": "translation" }));
     let times = &json["accessors"][animation["samplers"][0]["input"].as_u64().expect("an input") as usize];
-    assert_eq!((&times["count"], &times["max"]), (&serde_json::json!(24), &serde_json::json!([2.25])));
+    // The ball lands once from 0.25 s to 2.5 s: √(9/9.8) s and three times that are 0.96 s and 2.87 s.
+    assert_eq!((&times["count"], &times["max"]), (&serde_json::json!(25), &serde_json::json!([2.25])));
     let usd = String::from_utf8(export_when("usd", When::Motion(frames))).expect("UTF-8");
     assert!(usd.contains("endTimeCode = 22.5") && usd.contains("timeCodesPerSecond = 10"), "{usd}");
-    assert!(usd.matches(",\n").count() >= 24 && balanced(&usd), "{usd}");
+    assert!(usd.matches(",\n").count() >= 25 && balanced(&usd), "{usd}");
+    let landing = (f64::sqrt(9.0 / 9.8) - 0.25) * 10.0;
+    let key =
+        usd.lines().find_map(|line| line.trim().strip_prefix(&format!("{landing:.6}")[..6])).expect("a key");
+    let y: f64 = key.split(", ").nth(1).expect("y").parse().expect("a number");
+    assert!((y - 0.5).abs() < 1e-12, "the ball touches the floor: {key}");
 }
 
 #[test]

@@ -78,7 +78,7 @@ fn this_moment_and_the_motion_are_exported() {
 
     window.export("glTF 2.0, binary");
     window.click_role(Role::RadioButton, "The motion");
-    window.wait_for("straight lines between frames");
+    window.wait_for("straight lines between the frames");
     window.type_number("To", "-1");
     window.wait_for("the motion must end after it begins");
     window.type_number("To", "0.5");
