@@ -17,6 +17,8 @@ pub(super) struct Keyframe {
     /// [`Simulation::hash`] there.
     pub(super) hash: u64,
     segments: u64,
+    /// About what it takes, bytes.
+    bytes: usize,
     /// Edits that it contains.
     pub(super) edits: usize,
     /// Right after an edit: what is looked up after it needs its bodies and forces, so that it is never thinned out.
@@ -35,7 +37,8 @@ impl Keyframe {
     pub(super) fn new(simulation: &Simulation, at: Moment, edits: usize) -> Self {
         let segments = simulation.counters().segments;
         let hash = simulation.hash();
-        Self { at, snapshot: simulation.snapshot(), hash, segments, edits, after_edit: false }
+        let bytes = BODY_SIZE * (simulation.dynamic_count() + 8);
+        Self { at, snapshot: simulation.snapshot(), hash, segments, bytes, edits, after_edit: false }
     }
 
     pub(super) fn after_edit(self) -> Self {
@@ -105,8 +108,7 @@ impl Keyframes {
 
     /// Bytes that they take, about.
     pub(super) fn bytes(&self) -> usize {
-        let of = |key: &Keyframe| BODY_SIZE * (key.snapshot.simulation().dynamic_count() + 8);
-        self.list.iter().chain(self.head.as_deref()).map(of).sum()
+        self.list.iter().chain(self.head.as_deref()).map(|key| key.bytes).sum()
     }
 
     #[cfg(test)]

@@ -116,8 +116,8 @@ impl Recording {
         self.ticks.note(Tick { at, grid: self.end_grid });
         if self.keyframes.is_due(simulation) {
             self.keyframes.push(Keyframe::new(simulation, at, self.edits.len()));
-            self.stay_within_budget();
         }
+        self.stay_within_budget();
     }
 
     /// Records edits made at the end of what is known.

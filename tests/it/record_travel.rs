@@ -184,10 +184,10 @@ fn what_an_edit_in_the_past_replaces_can_be_brought_back() {
 
 #[test]
 fn a_small_memory_drops_the_oldest_and_says_so() {
-    let whole = step(&mut loaded("gas.xml"), 300).recorded.bytes;
+    let whole = step(&mut loaded("gas.xml"), 3000).recorded.bytes;
     let mut runner = loaded("gas.xml");
-    runner.send(RunCommand::Budget(whole / 4));
-    let end = step(&mut runner, 300);
+    runner.send(RunCommand::Budget(whole / 3));
+    let end = step(&mut runner, 3000);
     let recorded = &end.recorded;
     assert!(recorded.bytes < recorded.budget + whole / 8, "{} of {}", recorded.bytes, recorded.budget);
     assert!(recorded.from > 0.0 && end.ledger.first() > 1, "from {} s", recorded.from);

@@ -87,14 +87,15 @@ impl LedgerPanel {
         self.order = chosen.unwrap_or(self.order);
     }
 
-    /// The row of the event shown, once for every one.
+    /// The row of the event shown, once for every one; of an impact group the first.
     fn row_to_scroll_to(&mut self, context: &AppContext<'_>) -> Option<usize> {
         let frame = context.session.frame();
         let event = frame.event_count;
         if self.scrolled_to.replace(event) == Some(event) {
             return None;
         }
-        Some(self.listed.place_of(&frame.ledger, event)?.saturating_sub(1))
+        let nth = frame.event(event).map_or(0, |row| u64::from(row.event.row_in_group[0]).saturating_sub(1));
+        Some(self.listed.place_of(&frame.ledger, event - nth)?.saturating_sub(1))
     }
 
     /// The rows listed as text with tabs, all digits.
