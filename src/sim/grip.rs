@@ -16,8 +16,8 @@ use super::segment::{Segment, Series};
 use super::shape::Part;
 use super::state::State;
 use super::tolerance::{
-    AS_IT_BEGAN, LAST_OF_SLIP, LEAST_OF_STEP, MOST_GRIPPING, NO_SLIP, PRESSURE_ROUNDING, SHARE_OF_SLIP,
-    START_OF_SLIP, STICKS_ON,
+    AS_IT_BEGAN, JUST_BEGUN, LAST_OF_SLIP, LEAST_OF_STEP, MOST_GRIPPING, NO_SLIP, PRESSURE_ROUNDING,
+    SHARE_OF_SLIP, START_OF_SLIP, STICKS_ON, STIFF_STEP,
 };
 use super::turn::{Due, Hold, Turn};
 
@@ -335,6 +335,9 @@ impl Grip<'_> {
             steps = coupled_step(&start, evaluations, field);
         }
         let mut steps = steps.map_err(|error| (self.island.ids[0], error))?;
+        if self.is_stiff(&steps[0], motions, driven) {
+            return Ok(None);
+        }
         // The work in joules.
         let (work, column) = &mut steps[2 * count];
         work.a *= unit;
@@ -362,6 +365,17 @@ impl Grip<'_> {
             Mode::Smooth | Mode::Sticks => 1.0,
         };
         driven.touches.iter().enumerate().map(of).fold(1.0, f64::max).min(1.0 / AS_IT_BEGAN)
+    }
+
+    /// Whether a step has become short because a slip has only just begun and turns: its direction follows what drives it
+    /// within |s|/μg, in which a fixed point is found only over steps as short.
+    fn is_stiff(&self, (segment, _): &Step, motions: &[DVec3], driven: &Driven) -> bool {
+        let speed = self.speed(motions, driven.size);
+        let radius = self.radii.iter().copied().fold(f64::INFINITY, f64::min);
+        let begins = |touch: &Touch| {
+            matches!(touch.mode, Mode::Slips(_)) && touch.slip(motions).length() <= JUST_BEGUN * speed
+        };
+        segment.step * speed <= STIFF_STEP * radius && driven.touches.iter().any(begins)
     }
 
     /// When contacts that slip would cease to at their present rate, s from now.
@@ -393,9 +407,13 @@ impl Grip<'_> {
                 ..Segment::ballistic(time, segment.x, motions[k], driven.motions[k])
             };
         }
-        // Of a slip that falls to zero in that time half is rubbed on average.
+        // Slips change evenly: what is rubbed is what the middle says.
+        let power = driven.touches.iter().zip(&driven.forces.across).map(|(touch, across)| {
+            let change = touch.slip(&driven.motions) + touch.drift(motions);
+            -across.dot(touch.slip(motions) + 0.5 * length * change)
+        });
         let work = &mut steps[2 * count].0;
-        *work = Segment { end: time + length, a: DVec3::X * (0.5 * driven.power), ..*work };
+        *work = Segment { end: time + length, a: DVec3::X * power.sum::<f64>(), ..*work };
         steps
     }
 

@@ -108,7 +108,9 @@ fn a_huge_floor_keeps_its_place_in_a_close_view() {
 
 #[test]
 fn every_overlay_shows_something_and_only_when_asked() {
-    let (scene, frame) = (furnished_box(), frame());
+    let (scene, mut frame) = (furnished_box(), frame());
+    let orientation = glam::DQuat::IDENTITY;
+    frame.bodies[0].turn = Some(polyscene::sim::Rotation { orientation, spin: DVec3::X });
     let mut trails = Trails::default();
     let mut later = frame.clone();
     trails.push(&frame);
