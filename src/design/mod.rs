@@ -36,4 +36,4 @@ pub use repair::{Repaired, repair, repair_all};
 pub use tool::{Input, Kind, Tool, ToolGroup, Values};
 pub use tools::TOOLS;
 pub use trouble::{Trouble, TroubleKind, troubles};
-pub use turn::{euler_near, turn, turned};
+pub use turn::{turn, turned};

@@ -2,8 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-use crate::design::euler_near;
-use crate::scene::BodyChange;
+use crate::scene::{BodyChange, euler_angles};
 use crate::sim::Rotation;
 
 /// The changes that let a body start where and how it moves now: place, velocity, and where bodies rub how it is turned
@@ -15,7 +14,7 @@ pub fn as_start(
 ) -> impl Iterator<Item = BodyChange> {
     let moves = [BodyChange::Position(position), BodyChange::Velocity(velocity)];
     let turns = turn.map(|Rotation { orientation, spin }| {
-        let angles = euler_near(DMat3::from_quat(orientation), DVec3::ZERO);
+        let angles = euler_angles(DMat3::from_quat(orientation));
         [BodyChange::Rotation(angles), BodyChange::Spin(spin)]
     });
     moves.into_iter().chain(turns.into_iter().flatten())

@@ -32,5 +32,7 @@ pub use params::{PARAMS, ParamInfo, SimParams};
 pub use save::{
     FileId, FileStamp, canonical_target, check_writable, same_file, write_atomically, write_private,
 };
-pub use types::{Body, Force, ForceKind, Map, Motion, NodeKey, Roughness, Scene, Shape, rotation_matrix};
+pub use types::{
+    Body, Force, ForceKind, Map, Motion, NodeKey, Roughness, Scene, Shape, euler_angles, rotation_matrix,
+};
 pub use viewpoint::Viewpoint;

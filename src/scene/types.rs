@@ -204,3 +204,28 @@ pub enum Shape {
 pub fn rotation_matrix(euler: DVec3) -> DMat3 {
     DMat3::from_rotation_x(euler.x) * DMat3::from_rotation_y(euler.y) * DMat3::from_rotation_z(euler.z)
 }
+
+/// Angles of a rotation, as [`rotation_matrix`] takes them: from z = (sin β, −sin α cos β, cos α cos β), and what
+/// Rx(−α) R = Ry(β) Rz(γ) leaves.
+pub fn euler_angles(rotation: DMat3) -> DVec3 {
+    let [x, y, z] = [rotation.x_axis, rotation.y_axis, rotation.z_axis];
+    let alpha = libm::atan2(-z.y, z.z);
+    let (sin, cos) = libm::sincos(alpha);
+    let beta = libm::atan2(z.x, cos * z.z - sin * z.y);
+    let gamma = libm::atan2(cos * x.y + sin * x.z, cos * y.y + sin * y.z);
+    DVec3::new(alpha, beta, gamma)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn angles_give_the_rotation_back() {
+        for angles in [DVec3::ZERO, DVec3::new(0.3, -1.2, 2.0), DVec3::new(-3.0, 1.5, -0.7)] {
+            let rotation = rotation_matrix(angles);
+            let again = rotation_matrix(euler_angles(rotation));
+            assert!(again.abs_diff_eq(rotation, 1e-14), "{rotation} {again}");
+        }
+    }
+}
