@@ -30,6 +30,7 @@ mod engine;
 mod exchange;
 mod geometry;
 mod grip;
+mod gripping;
 mod group;
 mod group_friction;
 mod impact;

@@ -94,13 +94,19 @@ fn outside_warnings(model: &Model, state: &State) -> Vec<Diagnostic> {
 
 /// A method that leaves friction out says so.
 fn friction_warning(model: &Model) -> Option<Diagnostic> {
-    let is_rough = model.present().any(|body| model.dynamic(body).roughness().friction > 0.0);
-    (is_rough && model.method == Method::Thesis).then(|| {
-        about_all(
-            "the method thesis has no friction: bodies slide as if they were smooth".into(),
-            "use the method exact or fixed",
-        )
-    })
+    let roughness = |body| model.dynamic(body).roughness();
+    let is_rough = model.present().any(|body| roughness(body).friction > 0.0);
+    let resists = model.present().any(|body| roughness(body).rolling > 0.0);
+    let (message, hint) = match model.method {
+        Method::Thesis if is_rough => {
+            ("the method thesis has no friction: bodies slide as if they were smooth", "use exact or fixed")
+        }
+        Method::Fixed if is_rough && resists => {
+            ("the method fixed has no rolling friction: nothing slows a body that rolls", "use exact")
+        }
+        _ => return None,
+    };
+    Some(about_all(message.into(), hint))
 }
 
 /// Four digits, without an exponent where a person would write none.

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::dense::{LARGE_ISLAND, Role, SMALLEST_CROWD, enter, least_crowd, note_impact, note_work};
 use super::fault::{Fault, fault};
-use super::grip::{Gripped, begin_gripping, can_grip};
+use super::gripping::{Gripped, begin_gripping, can_grip};
 use super::island::{Island, begin_island, connected, drop_unpressed, islands};
 use super::model::Model;
 use super::motion::{begin_segment, begin_stay, place};

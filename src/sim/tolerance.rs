@@ -170,6 +170,12 @@ pub(super) const START_OF_SLIP: f64 = 1e-9;
 /// above leaves of rounding. And the part of the accelerations below which a slip hardly begins.
 pub(super) const AS_IT_BEGAN: f64 = 1e-6;
 
+/// A slip below this part of the speeds has only just begun, and a step in which a body comes less far than this part of its
+/// radius is a short one. Where both meet the bodies are stepped: smaller parts take thousands of steps, larger step
+/// bodies that could be followed.
+pub(super) const JUST_BEGUN: f64 = 1e-2;
+pub(super) const STIFF_STEP: f64 = 1e-3;
+
 /// A contact that sticks slips when it is held by more than its friction by this part of it: as it begins to, it is held by
 /// just that. Smaller, it slips by roundings as it begins to stick; larger, it slips late by as much.
 pub(super) const STICKS_ON: f64 = 1e-12;

@@ -155,6 +155,8 @@ mod sim_methods;
 mod sim_random;
 // Numbers at the ends of their range: bounded work; other units: the same bits.
 mod sim_range;
+// Friction beyond a face: fixed balls, grooves, chains, air, a rack.
+mod sim_rolling;
 // Friction and spin: single balls on faces, impacts.
 mod sim_spin;
 // Times of impact against bisection, at the rims of plates and spheres.

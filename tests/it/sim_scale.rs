@@ -54,6 +54,7 @@ impl Scale {
                 }
                 Shape::Unbuilt { .. } => {}
             }
+            body.spin /= self.time;
             if let Motion::Dynamic { mass, velocity } = &mut body.motion {
                 *mass *= self.mass;
                 *velocity *= self.speed();

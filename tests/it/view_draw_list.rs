@@ -109,7 +109,9 @@ fn a_huge_floor_keeps_its_place_in_a_close_view() {
 
 #[test]
 fn every_overlay_shows_something_and_only_when_asked() {
-    let (scene, frame) = (furnished_box(), frame());
+    let (scene, mut frame) = (furnished_box(), frame());
+    let orientation = glam::DQuat::IDENTITY;
+    frame.bodies[0].turn = Some(polyscene::sim::Rotation { orientation, spin: DVec3::X });
     let body = &frame.bodies[0];
     let past = vec![body.position - DVec3::X, body.position];
     let paths = vec![BodyPath { key: body.key, past, future: vec![body.position, body.position + DVec3::X] }];

@@ -20,6 +20,7 @@ mod load;
 mod orbits;
 mod rack;
 mod reversal;
+mod rolling;
 mod stacks;
 
 pub use case::{Case, CaseResult, Demand, Figure, Source, measure};
@@ -67,6 +68,9 @@ pub const CASES: &[&Case] = &[
     &heaps::MIRROR,
     &heaps::DROP_300,
     &heaps::DROP_1000,
+    &rolling::INCLINE,
+    &rolling::SLIP_TURNS,
+    &rolling::BREAK_ON_CLOTH,
     &reversal::REVERSAL,
     &far::FAR,
     &load::OVERLAP,

@@ -10,7 +10,9 @@ pub(super) mod highlight;
 mod labels;
 mod map_box;
 mod paths;
+mod pattern;
 mod scaled_arrows;
+mod spins;
 mod states;
 mod tiles;
 mod velocities;
@@ -76,6 +78,20 @@ pub const OVERLAYS: &[Overlay] = &[
         add: velocities::add,
     },
     Overlay {
+        id: "spins",
+        label: "Spins",
+        help: "An arrow from each moving body along its angular velocity, by the right-hand rule.",
+        default_on: false,
+        add: spins::add,
+    },
+    Overlay {
+        id: "turning",
+        label: "Turning",
+        help: "Two circles on each ball that turn with it, in scenes with friction.",
+        default_on: true,
+        add: pattern::add,
+    },
+    Overlay {
         id: "forces",
         label: "Forces",
         help: "An arrow from each moving body along the total applied force.",
@@ -112,8 +128,8 @@ pub const OVERLAYS: &[Overlay] = &[
     },
     Overlay {
         id: "states",
-        label: "Rest, slide, stepped",
-        help: "A square on each body at rest, a ring on each that slides, a diamond on each that is stepped.",
+        label: "Rest, slide, roll, stepped",
+        help: "A square on each body at rest, a ring on each that slides, a disc on each that rolls, a diamond on each that is stepped.",
         default_on: true,
         add: states::add,
     },
