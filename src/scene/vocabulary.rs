@@ -106,6 +106,7 @@ const fn xyz(kind: ValueKind) -> [AttributeInfo; 3] {
 
 const NUMBER: &[AttributeInfo] = &f32(ValueKind::Number);
 const POSITIVE: &[AttributeInfo] = &f32(ValueKind::Positive);
+const SHARE: &[AttributeInfo] = &f32(ValueKind::Between(0.0, 1.0));
 const NOT_NEGATIVE: &[AttributeInfo] = &f32(ValueKind::NotNegative);
 const VECTOR: &[AttributeInfo] = &xyz(ValueKind::Number);
 const USER_ID: &[AttributeInfo] = &[optional("UserID", ValueKind::Id)];
@@ -215,7 +216,13 @@ const ROTATION: Part =
 const BOUNCE: Part =
     or(leaf("Bounce", Since::V1_0, NOT_NEGATIVE, "restitution; a pair has the product"), "1");
 const FRICTION: Part =
-    or(leaf("Friction", Since::V1_1, NOT_NEGATIVE, "known; only 0 is simulated by this version"), "0");
+    or(leaf("Friction", Since::V1_1, NOT_NEGATIVE, "μ of Coulomb's friction; a pair has √(μ₁μ₂)"), "0");
+const ROLLING: Part = or(
+    leaf("RollingFriction", Since::V1_1, NOT_NEGATIVE, "share of the load that slows a rolling ball; √ too"),
+    "0",
+);
+const TANGENTIAL: Part =
+    or(leaf("Tangential", Since::V1_1, SHARE, "part of the slip that an impact gives back; √ too"), "0");
 const MATERIAL: Part = may(leaf(
     "Material",
     Since::V1_1,
@@ -247,18 +254,12 @@ const BODIES: &[ElementInfo] = &[
             ROTATION,
             BOUNCE,
             FRICTION,
+            ROLLING,
+            TANGENTIAL,
             MATERIAL,
             or(leaf("Weight", Since::V1_0, POSITIVE, "mass, kg"), "1"),
             or(leaf("InitialVelocity", Since::V1_0, VECTOR, "m/s"), "0"),
-            or(
-                leaf(
-                    "InitialAngularVelocity",
-                    Since::V1_1,
-                    VECTOR,
-                    "rad/s; known, only 0 is simulated by this version",
-                ),
-                "0",
-            ),
+            or(leaf("InitialAngularVelocity", Since::V1_1, VECTOR, "rad/s, about the axes of the map"), "0"),
             SPHERE,
             unbuilt("Box"),
             unbuilt("Cylinder"),
@@ -276,6 +277,8 @@ const BODIES: &[ElementInfo] = &[
             ROTATION,
             BOUNCE,
             FRICTION,
+            ROLLING,
+            TANGENTIAL,
             MATERIAL,
             SPHERE,
             PLANE,
