@@ -228,7 +228,9 @@ impl Grip<'_> {
         let speed = self.speed(motions, driven.size);
         let radius = self.radii.iter().copied().fold(f64::INFINITY, f64::min);
         let begins = |touch: &Touch| {
-            matches!(touch.mode, Mode::Slips(_)) && touch.slip(motions).length() <= JUST_BEGUN * speed
+            let Mode::Slips(direction) = touch.mode else { return false };
+            let grows = (touch.slip(&driven.motions) + touch.drift(motions)).dot(direction) >= 0.0;
+            grows && touch.slip(motions).length() <= JUST_BEGUN * speed
         };
         segment.step * speed <= STIFF_STEP * radius && driven.touches.iter().any(begins)
     }
