@@ -286,30 +286,18 @@ pub const COMMANDS: &[CommandInfo] = &[
     row(Menu::Simulation, 1, "run_to_rest", "Run until all is at rest", "Goes on until no body moves")
         .session(SessionCommand::Travel(TravelCommand::RunToRest))
         .when(Session::can_run),
-    row(Menu::Simulation, 1, "play_back", "Play backwards", "Plays what is recorded backwards, or stops")
+    row(Menu::Simulation, 1, "play_back", "Play backwards", "Plays backwards, or stops")
         .session(SessionCommand::Travel(TravelCommand::PlayBack))
         .keys(&[Shortcut::shift(Key::Space)])
         .when(Session::can_step_back),
-    row(
-        Menu::Simulation,
-        1,
-        "go_to_begin",
-        "To the begin of the recording",
-        "Shows the first time that is kept",
-    )
-    .session(SessionCommand::Travel(TravelCommand::GoToBegin))
-    .keys(&[Shortcut::plain(Key::Home)])
-    .when(Session::can_step_back),
-    row(
-        Menu::Simulation,
-        1,
-        "go_to_end",
-        "To the end of the recording",
-        "Shows the last time that was reached",
-    )
-    .session(SessionCommand::Travel(TravelCommand::GoToEnd))
-    .keys(&[Shortcut::shift(Key::End)])
-    .when(Session::can_go_to_end),
+    row(Menu::Simulation, 1, "go_to_begin", "Begin of the recording", "Shows the first time that is kept")
+        .session(SessionCommand::Travel(TravelCommand::GoToBegin))
+        .keys(&[Shortcut::plain(Key::Home)])
+        .when(Session::can_step_back),
+    row(Menu::Simulation, 1, "go_to_end", "End of the recording", "Shows the last time reached")
+        .session(SessionCommand::Travel(TravelCommand::GoToEnd))
+        .keys(&[Shortcut::shift(Key::End)])
+        .when(Session::can_go_to_end),
     row(Menu::Simulation, 1, "step_forward_five", "Five steps forward", "Goes on by five Δt")
         .session(SessionCommand::StepForwardFive)
         .keys(&[Shortcut::shift(Key::Char('.'))])
@@ -332,16 +320,10 @@ pub const COMMANDS: &[CommandInfo] = &[
         .session(SessionCommand::Travel(TravelCommand::NextBookmark))
         .keys(&[Shortcut::plain(Key::Char(']'))])
         .when(Session::can_go_to_next_bookmark),
-    row(
-        Menu::Simulation,
-        3,
-        "last_bookmark",
-        "Last bookmark",
-        "Shows the moment before this one that is marked",
-    )
-    .session(SessionCommand::Travel(TravelCommand::LastBookmark))
-    .keys(&[Shortcut::plain(Key::Char('['))])
-    .when(Session::can_go_to_last_bookmark),
+    row(Menu::Simulation, 3, "last_bookmark", "Last bookmark", "Shows the last moment that is marked")
+        .session(SessionCommand::Travel(TravelCommand::LastBookmark))
+        .keys(&[Shortcut::plain(Key::Char('['))])
+        .when(Session::can_go_to_last_bookmark),
     row(
         Menu::Simulation,
         3,
