@@ -46,9 +46,9 @@ impl Session {
         let beyond = time > self.run.frame.recorded.to;
         let command = RunCommand::Seek { dt, time };
         if beyond {
-            self.go_on(command)
+            self.go_on(command);
         } else {
-            self.go_back(command)
+            self.go_back(command);
         }
         Outcome::Done
     }

@@ -49,8 +49,9 @@ fn repeats(command: Command) -> bool {
                 | SessionCommand::StepBack
                 | SessionCommand::NextEvent
                 | SessionCommand::EventBack
-                | SessionCommand::Travel(TravelCommand::NextEventOfSelection)
-                | SessionCommand::Travel(TravelCommand::EventBackOfSelection)
+                | SessionCommand::Travel(
+                    TravelCommand::NextEventOfSelection | TravelCommand::EventBackOfSelection
+                )
                 | SessionCommand::Undo
                 | SessionCommand::Redo
         )

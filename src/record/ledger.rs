@@ -33,7 +33,7 @@ impl EventRow {
     pub fn energy_change(&self) -> Option<f64> {
         let event = &self.event;
         let is_impact = matches!(event.kind, EventKind::Impact | EventKind::Collapse);
-        is_impact.then(|| 0.5 * event.impulse * (event.vn_before + event.vn_after))
+        is_impact.then_some(0.5 * event.impulse * (event.vn_before + event.vn_after))
     }
 
     pub fn concerns(&self, key: NodeKey) -> bool {

@@ -189,10 +189,8 @@ impl RunRecorder {
             RunCommand::Seek { time, .. } if !time.is_finite() => {
                 run.message = Some("that is not a time".into());
             }
-            RunCommand::Seek { dt, time } => {
-                if !run.seek(time) {
-                    self.task = Task::Until { dt, goal: Goal::Time(time) };
-                }
+            RunCommand::Seek { dt, time } if !run.seek(time) => {
+                self.task = Task::Until { dt, goal: Goal::Time(time) };
             }
             RunCommand::StepBack => drop(run.step_back()),
             RunCommand::EventBack { of } => run.event_back(of),

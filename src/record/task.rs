@@ -109,8 +109,10 @@ impl Goal {
         match self {
             Self::Time(time) => {
                 let stop = Stop { at_events: false, time: *time };
+                if run.cursor.time < *time && run.slice(dt, stop, budget) == Slice::Pause {
+                    return false;
+                }
                 run.cursor.time >= *time
-                    || (run.slice(dt, stop, budget) != Slice::Pause && run.cursor.time >= *time)
             }
             Self::Events(left) => {
                 *left -= u64::from(run.slice(dt, Stop::AT_EVENTS, budget) == Slice::Event).min(*left);

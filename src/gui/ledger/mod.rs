@@ -142,7 +142,7 @@ fn title(ui: &mut Ui, nth: usize, order: Order) -> Option<Order> {
     let response = ui.add(egui::Label::new(text).sense(Sense::click()));
     let help = format!("{}\nClick: sort by it; again: the other way round", column.help);
     let clicked = response.on_hover_text(help).clicked();
-    clicked.then(|| Order { column: nth, falling: order.column == nth && !order.falling })
+    clicked.then_some(Order { column: nth, falling: order.column == nth && !order.falling })
 }
 
 fn show_row(row: &mut TableRow<'_, '_>, context: &AppContext<'_>, event: &Arc<EventRow>) {

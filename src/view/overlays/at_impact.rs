@@ -32,7 +32,7 @@ pub(in crate::view) fn add(stage: &Stage<'_>, list: &mut DrawList) {
 fn ghost(stage: &Stage<'_>, list: &mut DrawList, posed: &Posed<'_>, place: glam::DVec3, strength: f64) {
     let Shape::Sphere { radius } = posed.body.shape else { return };
     let size = (2.0 * radius / stage.metres_per_point(place)) as f32;
-    if !(size < 4000.0) {
+    if size.is_nan() || size >= 4000.0 {
         return;
     }
     let color = posed.color.with_alpha((200.0 * strength) as u8);

@@ -70,9 +70,9 @@ fn a_run_that_parts_from_its_recording_ends_with_3_and_says_where() {
 fn what_is_no_recording_is_refused_with_its_reason() {
     let bench = recorded();
     let text = bench.read("run.psrec");
-    bench.write("scene.psrec", BOUNCE.to_owned());
+    bench.write("scene.psrec", BOUNCE);
     bench.write("newer.psrec", text.replacen("\"version\": 1", "\"version\": 7", 1));
-    bench.write("cut.psrec", text[..text.len() / 2].to_owned());
+    bench.write("cut.psrec", &text[..text.len() / 2]);
     bench.write("base64.psrec", text.replacen("\"scene\": \"", "\"scene\": \"*", 1));
     bench.write("method.psrec", text.replacen("\"exact\"", "\"guess\"", 1));
     bench.write("step.psrec", text.replacen("\"dt\": 0.0", "\"dt\": -0.0", 1));
