@@ -5,13 +5,14 @@ use super::frame::Jump;
 use crate::sim::{Event, Simulation};
 
 /// Adding energies up costs a look at all bodies: with more than this, not every event is looked at.
-const BODIES_PER_EVENT: u64 = 16;
+const BODIES_PER_EVENT: u64 = 4;
 
 #[derive(Clone, Debug, Default)]
 pub(super) struct Drift {
     residual: f64,
-    /// Events since the residual was looked at.
+    /// Events since the residual was looked at, and how many bodies there were then: counting them costs as much.
     since: u64,
+    bodies: u64,
     /// Jumps larger than all before them, so that going back leaves the largest of what remains.
     records: Vec<Jump>,
 }
@@ -24,9 +25,10 @@ impl Drift {
 
     pub(super) fn note(&mut self, simulation: &Simulation, event: &Event) {
         self.since += 1;
-        if self.since * BODIES_PER_EVENT < simulation.dynamic_count() as u64 {
+        if self.since * BODIES_PER_EVENT < self.bodies {
             return;
         }
+        self.bodies = simulation.dynamic_count() as u64;
         let residual = residual_of(simulation);
         let size = (residual - self.residual).abs();
         (self.residual, self.since) = (residual, 0);

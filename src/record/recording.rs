@@ -165,7 +165,7 @@ impl Recording {
         }
     }
 
-    /// The edits after the first so many.
+    /// All edits, in the order of their moments.
     pub(super) fn edits(&self) -> &[RecordedEdits] {
         &self.edits
     }

@@ -81,6 +81,8 @@ struct Worker {
     shared: Arc<Mutex<Arc<Frame>>>,
     /// Number of the last command taken up.
     command: u64,
+    /// Whether no frame knows of it yet.
+    is_unseen: bool,
     on_frame: Box<dyn Fn() + Send>,
     recorder: RunRecorder,
     revision: u64,
@@ -120,7 +122,7 @@ impl Worker {
             pace: Pace::default(),
         };
         let recorder = RunRecorder::default();
-        Self { commands, shared, command: 0, on_frame, recorder, revision: 0, clock }
+        Self { commands, shared, command: 0, is_unseen: false, on_frame, recorder, revision: 0, clock }
     }
 
     fn run(mut self, closing: &AtomicBool) {
@@ -146,7 +148,10 @@ impl Worker {
             busy = self.recorder.work(SLICE);
             self.clock.working += started.elapsed();
             let done = (was_working || received) && !busy && self.recorder.state() != RunState::Playing;
-            if done || ((busy || was_working) && self.frame_is_due()) {
+            // What a command has looked up is shown at once, unless making frames takes longer than commands come.
+            self.is_unseen |= received;
+            let is_looked_up = self.is_unseen && self.clock.last_frame.elapsed() >= self.clock.publishing;
+            if done || is_looked_up || ((busy || was_working) && self.frame_is_due()) {
                 self.publish();
             }
         }
@@ -182,6 +187,7 @@ impl Worker {
         self.revision += 1;
         let frame = Arc::new(frame_of(&mut self.recorder, self.revision, self.command, self.clock.pace));
         *self.shared.lock().unwrap_or_else(PoisonError::into_inner) = frame;
+        self.is_unseen = false;
         self.clock.last_frame = Instant::now();
         self.clock.publishing = self.clock.last_frame - started;
         (self.on_frame)();

@@ -38,7 +38,12 @@ impl Track {
         self.count += 1;
         match self.blocks.back_mut() {
             Some(block) if block.len() < BLOCK => block.push(noted),
-            _ => self.blocks.push_back(vec![noted]),
+            // Most bodies of large scenes have few pieces; one with many will have more.
+            _ => {
+                let mut block = Vec::with_capacity(if self.blocks.is_empty() { 1 } else { BLOCK });
+                block.push(noted);
+                self.blocks.push_back(block);
+            }
         }
     }
 

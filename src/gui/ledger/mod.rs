@@ -72,9 +72,8 @@ impl LedgerPanel {
         let mut chosen = None;
         table
             .header(ROW_HEIGHT, |mut header| {
-                for (nth, column) in COLUMNS.iter().enumerate() {
+                for nth in 0..COLUMNS.len() {
                     header.col(|ui| chosen = title(ui, nth, order).or(chosen));
-                    let _ = column;
                 }
             })
             .body(|body| {
