@@ -12,7 +12,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use glam::{DVec3, dvec3};
-use polyscene::scene::{Document, Force as SceneForce, ForceKind, NodeKey, Scene};
+use polyscene::scene::{Document, Force as SceneForce, ForceKind, Scene};
 use polyscene::sim::{Force, Simulation, Subject};
 
 const GRAVITY: DVec3 = dvec3(0.0, -9.8, 0.0);
@@ -105,15 +105,7 @@ fn load(name: &str) -> Scene {
 
 fn in_gravity(scene: &Scene) -> Scene {
     let mut scene = scene.clone();
-    scene.forces.push(SceneForce {
-        key: NodeKey(1_000_000),
-        id: 1,
-        label: "1".into(),
-        name: None,
-        group: None,
-        hidden: false,
-        locked: false,
-        kind: ForceKind::GravityPlane { position: DVec3::ZERO, acceleration: GRAVITY },
-    });
+    let gravity = ForceKind::GravityPlane { position: DVec3::ZERO, acceleration: GRAVITY };
+    scene.forces.push(SceneForce::new(1, gravity));
     scene
 }

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, dvec3};
 use polyscene::random::Random;
-use polyscene::scene::{Body, Force, ForceKind, Map, Motion, NodeKey, Scene, Shape, SimParams};
+use polyscene::scene::{Body, Force, ForceKind, Map, Motion, Scene, Shape, SimParams};
 
 /// N equal spheres of 1 kg at a packing fraction in a box of 10 m, on a lattice, with velocities of 1 m/s in
 /// random directions.
@@ -50,16 +50,8 @@ pub fn pile(count: u32, e: f64) -> Scene {
     for body in &mut bodies {
         body.bounce = e.sqrt();
     }
-    let gravity = Force {
-        key: NodeKey(1_000_000),
-        id: 1,
-        label: "1".into(),
-        name: None,
-        group: None,
-        hidden: false,
-        locked: false,
-        kind: ForceKind::GravityPlane { position: DVec3::ZERO, acceleration: dvec3(0.0, -9.81, 0.0) },
-    };
+    let acceleration = dvec3(0.0, -9.81, 0.0);
+    let gravity = Force::new(1, ForceKind::GravityPlane { position: DVec3::ZERO, acceleration });
     Scene { forces: vec![gravity], ..scene(size, 2 * side, bodies) }
 }
 

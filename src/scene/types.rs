@@ -55,6 +55,20 @@ pub struct Force {
 }
 
 impl Force {
+    /// A force as scenes made by code have them: named by its UserID, which gives its key too, apart from those of bodies.
+    pub fn new(id: i64, kind: ForceKind) -> Self {
+        Self {
+            key: NodeKey(1_000_000 + id.unsigned_abs()),
+            id,
+            label: id.to_string(),
+            name: None,
+            group: None,
+            hidden: false,
+            locked: false,
+            kind,
+        }
+    }
+
     /// What to call this force in front of a person: its name, or its label.
     pub fn display_name(&self) -> &str {
         self.name.as_deref().unwrap_or(&self.label)

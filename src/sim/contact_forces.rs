@@ -8,7 +8,7 @@
 use glam::DVec3;
 
 use super::link::Link;
-use super::tolerance::DEPENDENT;
+use super::tolerance::{DEPENDENT, OF_LOADS};
 use super::turn::INERTIA;
 
 /// What a contact does.
@@ -174,10 +174,6 @@ fn rows<'a>(
         }
     })
 }
-
-/// Weight of the square of a load beside that of friction, where forces depend on each other: a ball in a groove is
-/// carried by its loads, and rubs no more than it must.
-const OF_LOADS: f64 = 1e-6;
 
 /// Gauss elimination with full pivoting, and of all answers the one with the least squares.
 fn eliminate(matrix: &mut [Vec<f64>], weights: &[f64]) -> Vec<f64> {

@@ -16,7 +16,7 @@ use super::rolling::{book_turn, report};
 use super::segment::{Segment, Series};
 use super::state::State;
 use super::tolerance::{
-    AS_IT_BEGAN, JUST_BEGUN, LAST_OF_SLIP, LEAST_OF_STEP, MOST_GRIPPING, NO_SLIP, PRESSURE_ROUNDING,
+    AS_IT_BEGAN, AT_ONCE, JUST_BEGUN, LAST_OF_SLIP, LEAST_OF_STEP, MOST_GRIPPING, NO_SLIP, PRESSURE_ROUNDING,
     SHARE_OF_SLIP, STICKS_ON, STIFF_STEP,
 };
 use super::turn::{Due, Hold, Turn};
@@ -41,10 +41,6 @@ pub(super) fn can_grip(model: &Model, state: &State, island: &Island) -> bool {
 
 /// The steps of all, and the contacts whose slip is zero at their end.
 type Gone = (Vec<Step>, Vec<usize>);
-
-/// Slips that end within this part of the time that is left to the first of them end with it: what is left of them then
-/// is a rounding of the speeds.
-const AT_ONCE: f64 = 1e-3;
 
 /// Lets an island that rubs go on.
 pub(super) fn begin_gripping(

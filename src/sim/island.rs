@@ -315,11 +315,14 @@ pub(super) fn part_ends(
 
 /// Books what the surfaces took of velocities that pointed into them or away.
 fn book(state: &mut State, island: &Island, before: &[DVec3]) {
+    let turns = !state.turns.is_empty();
     for (row, (old, new)) in before.iter().zip(&island.v).enumerate() {
         if old != new {
             let (way, inverse_mass) = (*new - *old, &island.inverse_mass[row]);
             state.account.impulses.add(way / *inverse_mass);
-            state.account.angular.impulses.add(angular(island.x[row], way / *inverse_mass));
+            if turns {
+                state.account.angular.impulses.add(angular(island.x[row], way / *inverse_mass));
+            }
             state.account.impact_losses.add(-0.5 * way.dot(*new + *old) / *inverse_mass);
         }
     }

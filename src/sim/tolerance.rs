@@ -154,6 +154,16 @@ pub(super) const ONE_LINE: f64 = 1e-13;
 /// digits, smaller takes more steps.
 pub(super) const LAST_OF_SLIP: f64 = 1e-7;
 
+/// Slips that end within this part of the time that is left to the first of them end with it: what is left of them then is
+/// this part of [`LAST_OF_SLIP`], a rounding of the speeds. Smaller, slips that end together do so one after the other;
+/// larger, those end that have some way to go.
+pub(super) const AT_ONCE: f64 = 1e-3;
+
+/// Weight of the square of a load beside that of friction, where forces depend on each other: a ball in a groove is carried
+/// by its loads, and rubs no more than it must. Larger, friction carries it too; smaller, rounding decides how loads are
+/// shared.
+pub(super) const OF_LOADS: f64 = 1e-6;
+
 /// A step along a slip that turns goes so far at most of the way to where that ends: the turn becomes singular there.
 /// Larger is cut down by the integrator, smaller takes more steps.
 pub(super) const SHARE_OF_SLIP: f64 = 0.75;

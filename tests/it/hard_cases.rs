@@ -66,6 +66,11 @@ fn collapse_and_stacks_hold() {
 }
 
 #[test]
+fn balls_that_rub_hold() {
+    check(16..=16);
+}
+
+#[test]
 fn stepped_groups_hold() {
     check(18..=18);
 }

@@ -3,10 +3,10 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::{DVec3, dvec3};
-use polyscene::scene::{Body, ForceKind, NodeKey, Scene};
+use polyscene::scene::{Body, Force, ForceKind, NodeKey, Scene};
 use polyscene::sim::{ContactState, Event, EventKind, SimEdit, Simulation};
 
-use crate::common::build::{Build, Shaped, ball, empty, force, static_ball};
+use crate::common::build::{Build, Shaped, ball, empty, static_ball};
 use crate::common::drive::{Sampling, advance, simulation, state_of, watch};
 
 /// The Δt at which every closed form must hold.
@@ -163,7 +163,7 @@ fn resting_ball_lifts_off_when_gravity_turns() {
     advance(&mut sim, 2.0, Sampling::Every(0.3));
     assert_eq!(state_of(&sim, 2).contact, ContactState::Rest);
     let up = ForceKind::GravityPlane { position: DVec3::ZERO, acceleration: DVec3::Y * 4.0 };
-    sim.apply(&SimEdit::ChangeForce(Box::new(force(1, up)))).expect("the force is there");
+    sim.apply(&SimEdit::ChangeForce(Box::new(Force::new(1, up)))).expect("the force is there");
     advance(&mut sim, 4.0, Sampling::Every(0.3));
     let state = state_of(&sim, 2);
     assert_eq!(state.contact, ContactState::Flight);
@@ -255,7 +255,7 @@ fn heap_lets_go_when_its_middle_is_taken_or_gravity_turns() {
     let mut sim = simulation(&stack());
     advance(&mut sim, 1.0, Sampling::Every(0.3));
     let up = ForceKind::GravityPlane { position: DVec3::ZERO, acceleration: DVec3::Y * 2.0 };
-    sim.apply(&SimEdit::ChangeForce(Box::new(force(1, up)))).expect("the force is there");
+    sim.apply(&SimEdit::ChangeForce(Box::new(Force::new(1, up)))).expect("the force is there");
     advance(&mut sim, 2.0, Sampling::Every(0.3));
     for (id, y) in [(2, 0.5), (3, 1.5), (4, 2.5)] {
         let state = state_of(&sim, id);

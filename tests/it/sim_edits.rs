@@ -3,10 +3,10 @@
 use std::f64::consts::FRAC_PI_2;
 
 use glam::{DVec3, dvec3};
-use polyscene::scene::{ForceKind, NodeKey, Scene};
+use polyscene::scene::{Force, ForceKind, NodeKey, Scene};
 use polyscene::sim::{EventKind, SimEdit, Simulation};
 
-use crate::common::build::{Build, Shaped, ball, empty, force, plate, thesis};
+use crate::common::build::{Build, Shaped, ball, empty, plate, thesis};
 use crate::common::drive::{
     Run, SAMPLINGS, Sampling, advance, assert_same_bits, finished, impacts, simulation, state_of,
 };
@@ -73,10 +73,10 @@ fn body_that_lay_on_a_removed_one_falls() {
 fn changed_forces_act_from_their_time_on() {
     let scene = empty().gravity(-9.8).ball(1, DVec3::splat(5.0), DVec3::ZERO);
     let edits = [
-        (1.0, SimEdit::ChangeForce(Box::new(force(1, uniform(4.9))))),
-        (2.0, SimEdit::AddForce(Box::new(force(2, uniform(2.1))))),
-        (3.0, SimEdit::Remove(force(1, uniform(0.0)).key)),
-        (4.0, SimEdit::Remove(force(2, uniform(0.0)).key)),
+        (1.0, SimEdit::ChangeForce(Box::new(Force::new(1, uniform(4.9))))),
+        (2.0, SimEdit::AddForce(Box::new(Force::new(2, uniform(2.1))))),
+        (3.0, SimEdit::Remove(Force::new(1, uniform(0.0)).key)),
+        (4.0, SimEdit::Remove(Force::new(2, uniform(0.0)).key)),
     ];
     for sampling in [Sampling::Every(1.0), Sampling::Every(1.0 / 60.0), Sampling::Random(1)] {
         let (sim, run) = run_edited(&scene, 6.0, sampling, &edits);
@@ -93,7 +93,7 @@ fn changed_forces_act_from_their_time_on() {
 fn attractor_may_be_switched_on_and_off() {
     // With the pull off, the body goes on straight.
     let scene = empty().ball(1, dvec3(9.0, 5.0, 5.0), DVec3::Z);
-    let pull = force(1, ForceKind::GravityPoint { position: DVec3::splat(5.0), intensity: 4.0 });
+    let pull = Force::new(1, ForceKind::GravityPoint { position: DVec3::splat(5.0), intensity: 4.0 });
     let edits = [(1.0, SimEdit::AddForce(Box::new(pull.clone()))), (1.0, SimEdit::Remove(pull.key))];
     let (sim, _) = run_edited(&scene, 3.0, Sampling::Every(0.25), &edits);
     assert!((state_of(&sim, 1).position - dvec3(9.0, 5.0, 8.0)).length() <= 1e-13);
@@ -141,9 +141,9 @@ fn residual_leaves_out_the_work_of_edits() {
     let mut sim = simulation(&scene);
     let edits = [
         SimEdit::Mass(NodeKey(2), 5.0),
-        SimEdit::ChangeForce(Box::new(force(1, uniform(-4.0)))),
+        SimEdit::ChangeForce(Box::new(Force::new(1, uniform(-4.0)))),
         SimEdit::AddBody(Box::new(ball(3, dvec3(3.0, 3.0, 5.0), DVec3::X))),
-        SimEdit::AddForce(Box::new(force(7, ForceKind::Drag { density: 3.0 }))),
+        SimEdit::AddForce(Box::new(Force::new(7, ForceKind::Drag { density: 3.0 }))),
         SimEdit::Remove(NodeKey(2)),
     ];
     for (k, edit) in edits.iter().enumerate() {
@@ -167,7 +167,7 @@ fn refused_edits_change_nothing() {
         SimEdit::Bounce(NodeKey(5853), -1.0),
         SimEdit::AddBody(Box::new(ball(5853, DVec3::ONE, DVec3::ZERO))),
         SimEdit::AddBody(Box::new(ball(99, DVec3::ONE, dvec3(f64::INFINITY, 0.0, 0.0)))),
-        SimEdit::ChangeForce(Box::new(force(424_242, uniform(1.0)))),
+        SimEdit::ChangeForce(Box::new(Force::new(424_242, uniform(1.0)))),
         SimEdit::ChangeStatic(Box::new(plate(424_242, DVec3::ONE, DVec3::ZERO, 1.0, 1.0))),
     ];
     for edit in &bad {
@@ -183,7 +183,7 @@ fn the_same_edits_give_the_same_bits() {
         (0.5, SimEdit::AddBody(Box::new(ball(77, dvec3(2.0, 8.0, 7.0), dvec3(1.0, 0.0, 2.0)).bounce(0.8)))),
         (
             1.25,
-            SimEdit::ChangeForce(Box::new(force(
+            SimEdit::ChangeForce(Box::new(Force::new(
                 7045,
                 ForceKind::GravityPoint { position: DVec3::splat(5.0), intensity: -3.0 },
             ))),
@@ -200,7 +200,7 @@ fn the_same_edits_give_the_same_bits() {
         ),
         (3.0, SimEdit::Remove(NodeKey(8945))),
         (3.0, SimEdit::Bounce(NodeKey(5853), 0.9)),
-        (4.0, SimEdit::AddForce(Box::new(force(3, ForceKind::Drag { density: 1.3 })))),
+        (4.0, SimEdit::AddForce(Box::new(Force::new(3, ForceKind::Drag { density: 1.3 })))),
         (5.0, SimEdit::Mass(NodeKey(15921), 4.0)),
     ];
     let (_, expected) = run_edited(&scene, 8.0, Sampling::Every(1.0), &edits);

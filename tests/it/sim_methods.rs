@@ -3,10 +3,10 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::{DVec3, dvec3};
-use polyscene::scene::{ForceKind, Scene};
+use polyscene::scene::{Force, ForceKind, Scene};
 use polyscene::sim::{Event, EventKind, Method, Progress, SimEdit, Simulation, StepLimits};
 
-use crate::common::build::{Build, Shaped, ball, empty, force, static_ball, thesis};
+use crate::common::build::{Build, Shaped, ball, empty, static_ball, thesis};
 use crate::common::drive::{Sampling, state_of, watch};
 
 /// The methods whose results depend on Δt.
@@ -312,7 +312,8 @@ fn edits_apply_inside_a_step_and_end_it() {
         assert!((state_of(&sim, 1).position.y - expected).abs() <= 1e-14, "{method:?}");
         assert!(sim.energy().residual.unwrap().abs() <= 1e-14);
 
-        let lift = force(7, ForceKind::GravityPlane { position: DVec3::ZERO, acceleration: DVec3::Y * 10.0 });
+        let lift =
+            Force::new(7, ForceKind::GravityPlane { position: DVec3::ZERO, acceleration: DVec3::Y * 10.0 });
         sim.apply(&SimEdit::AddForce(Box::new(lift))).unwrap();
         sim.apply(&SimEdit::AddBody(Box::new(static_ball(3, dvec3(5.0, 9.0, 5.0), 0.5)))).unwrap();
         sim.apply(&SimEdit::AddBody(Box::new(ball(4, dvec3(2.0, 9.0, 5.0), DVec3::ZERO)))).unwrap();

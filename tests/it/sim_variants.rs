@@ -1,6 +1,6 @@
 //! Contact scenes from seeds: each ends, gains no energy, overlaps nothing, and closes its books.
 
-use polyscene::scene::{ForceKind, Scene, Shape};
+use polyscene::scene::{Scene, Shape};
 use polyscene::sim::{Progress, Simulation};
 use polyscene::study::OverlapMonitor;
 
@@ -31,16 +31,6 @@ const PORTION: u32 = 64;
 /// Looks at the energy and at all pairs, besides those at events.
 const LOOKS: u32 = 100;
 
-/// What the energy of an integrated motion may climb by within a segment, as a part of the largest energy so far: the
-/// polynomial is as good as the tolerance of the field, and at the ends of segments better. Without fields motions have
-/// closed forms.
-const CLIMB_IN_FIELDS: f64 = 1e-10;
-const CLIMB: f64 = 1e-11;
-
-/// Energy residual that is allowed; and where bodies beside an attractor are stepped, for a leapfrog follows its pull.
-const RESIDUAL: f64 = 1e-9;
-const RESIDUAL_OF_STEPS_IN_FIELDS: f64 = 1e-6;
-
 /// Scenes that were wrong once: family, seed and number among its variants.
 const ONCE_WRONG: &[(Family, u64, usize)] = &[
     // Seen: "the integrator's step has shrunk to nothing". Cause: a kink of drag nearer to the start of a step than time
@@ -70,7 +60,7 @@ struct Seen {
     climb: f64,
     /// Deepest overlap over what is allowed.
     overlap: f64,
-    /// Largest energy residual over what is allowed.
+    /// Largest energy residual.
     residual: f64,
 }
 
@@ -81,9 +71,7 @@ fn watch(scene: &ContactScene) -> Result<Seen, String> {
     let at_start = monitor.worst_now(&sim);
     let radius = smallest_radius(&scene.scene);
     let steps = Promise::of_steps(&sim, &scene.scene);
-    let in_field = has_field(&scene.scene);
-    let climb = if in_field { CLIMB_IN_FIELDS } else { CLIMB };
-    let (mut seen, mut lowest, mut largest, mut calls) = (Seen::default(), f64::INFINITY, 0.0_f64, 0);
+    let (mut seen, mut lowest, mut calls) = (Seen::default(), f64::INFINITY, 0);
     for look in 1..=LOOKS {
         sim.begin(scene.until * f64::from(look) / f64::from(LOOKS));
         loop {
@@ -99,17 +87,13 @@ fn watch(scene: &ContactScene) -> Result<Seen, String> {
                 let energy = sim.energy();
                 let total = energy.total.ok_or("no total energy")?;
                 lowest = lowest.min(total);
-                // Where a potential is zero is arbitrary.
-                largest = largest.max(energy.kinetic + energy.potential.unwrap_or(0.0).abs());
-                let promise =
-                    Promise { overlap: 1e-9 * radius, climb: climb * largest.max(f64::MIN_POSITIVE) };
+                let scale = energy.kinetic + energy.potential.unwrap_or(0.0).abs();
+                let promise = Promise { overlap: 1e-9 * radius, climb: 1e-11 * scale.max(f64::MIN_POSITIVE) };
                 let promise = if was_stepped(&sim) { steps } else { promise };
-                let residual =
-                    if in_field && was_stepped(&sim) { RESIDUAL_OF_STEPS_IN_FIELDS } else { RESIDUAL };
                 seen.climb = seen.climb.max((total - lowest) / promise.climb);
                 // Steps of a seam may reach into the ball from the start.
                 seen.overlap = seen.overlap.max((monitor.worst_now(&sim) - at_start) / promise.overlap);
-                seen.residual = seen.residual.max(energy.residual.ok_or("no residual")?.abs() / residual);
+                seen.residual = seen.residual.max(energy.residual.ok_or("no residual")?.abs());
             }
             if progress == Progress::Done {
                 break;
@@ -120,11 +104,6 @@ fn watch(scene: &ContactScene) -> Result<Seen, String> {
         }
     }
     Ok(seen)
-}
-
-/// Whether there is a field whose pull changes from place to place.
-fn has_field(scene: &Scene) -> bool {
-    scene.forces.iter().any(|force| matches!(force.kind, ForceKind::GravityPoint { .. }))
 }
 
 fn smallest_radius(scene: &Scene) -> f64 {
@@ -141,7 +120,7 @@ fn fault_of(scene: &ContactScene) -> Option<String> {
         Ok(seen) => seen,
         Err(reason) => return Some(format!("{}: {reason}", scene.what)),
     };
-    let holds = seen.climb <= 1.0 && seen.overlap <= 1.0 && seen.residual <= 1.0;
+    let holds = seen.climb <= 1.0 && seen.overlap <= 1.0 && seen.residual <= 1e-9;
     (!holds).then(|| format!("{}: {seen:?}", scene.what))
 }
 

@@ -8,9 +8,8 @@
 //!
 //! `data` is what is stored, `stepped` what a step works on; `activity` decides who enters, `membership` takes them in;
 //! `list` keeps who is near whom, found by `cells`, and `components` who goes together; `contact` makes the bounds of a
-//! step, `solve` has them solved: by `sweep`, with friction by `rub`, or by `direct` where few resist; `group_step` does all that for the bodies
-//! that are due, and `rest` finds out who lies
-//! still or has left. `view` is what can be seen of it.
+//! step, `solve` has them solved: by `sweep`, with friction by `rub`, or by `direct` where few resist; `group_step` does
+//! all that for the bodies that are due, and `rest` finds out who lies still or has left. `view` is what can be seen of it.
 
 mod activity;
 mod cells;

@@ -57,7 +57,9 @@ fn lifted(model: &Model, state: &mut State, dense: &Dense, slot: usize, time: f6
     if x != from {
         let potential = |x: DVec3| potential_of(model, body, time, x).unwrap_or(0.0);
         state.account.impact_losses.add(potential(from) - potential(x));
-        state.account.angular.impulses.add(angular(x - from, model.mass(body) * v));
+        if model.plan.spin {
+            state.account.angular.impulses.add(angular(x - from, model.mass(body) * v));
+        }
     }
     Left { body, x, v }
 }

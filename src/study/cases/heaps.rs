@@ -6,7 +6,7 @@ use glam::{DVec3, dvec3};
 
 use super::case::{Case, Demand, Source, at_most, reported};
 use super::trial::{Stop, Trial, start, states};
-use crate::scene::{Body, Force, ForceKind, Map, Motion, NodeKey, Scene, Shape, SimParams};
+use crate::scene::{Body, Force, ForceKind, Map, Motion, Scene, Shape, SimParams};
 use crate::sim::{BodyRef, BodyState, Simulation};
 use crate::study::closed_form::Bounces;
 use crate::study::{OverlapMonitor, Random};
@@ -389,16 +389,7 @@ fn in_gravity(size: f64, e: f64, places: impl IntoIterator<Item = DVec3>) -> Sce
         map: Map { size: DVec3::splat(size), tiles: [(size / (3.0 * RADIUS)) as u32; 3] },
         time_speed: 1.0,
         params: SimParams::default(),
-        forces: vec![Force {
-            key: NodeKey(1_000_000),
-            id: 1,
-            label: "1".into(),
-            name: None,
-            hidden: false,
-            locked: false,
-            group: None,
-            kind: ForceKind::GravityPlane { position: DVec3::ZERO, acceleration },
-        }],
+        forces: vec![Force::new(1, ForceKind::GravityPlane { position: DVec3::ZERO, acceleration })],
         bodies: balls.collect(),
     }
 }

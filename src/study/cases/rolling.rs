@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::case::{Case, SMALL_BUDGET, Source, at_most, file, reported};
 use super::monitor::Monitor;
 use super::trial::{Stop, Trial, state_of};
-use crate::scene::{Body, Force, ForceKind, Map, Motion, NodeKey, Roughness, Scene, Shape, SimParams};
+use crate::scene::{Body, Force, ForceKind, Map, Motion, Roughness, Scene, Shape, SimParams};
 use crate::sim::{BodyRef, ContactState, Event, EventKind, Simulation};
 
 const GRAVITY: f64 = 9.81;
@@ -43,16 +43,7 @@ fn incline(balls: &[(f64, [f64; 2])]) -> Scene {
         });
     }
     let acceleration = DVec3::new(0.0, -GRAVITY, 0.0);
-    let gravity = Force {
-        key: NodeKey(1_000_000),
-        id: 1,
-        label: "1".into(),
-        name: None,
-        group: None,
-        hidden: false,
-        locked: false,
-        kind: ForceKind::GravityPlane { position: MIDDLE, acceleration },
-    };
+    let gravity = Force::new(1, ForceKind::GravityPlane { position: MIDDLE, acceleration });
     let map = Map { size: DVec3::new(60.0, 30.0, 20.0), tiles: [12, 6, 4] };
     Scene { map, time_speed: 1.0, params: SimParams::default(), forces: vec![gravity], bodies }
 }
@@ -181,10 +172,10 @@ pub(super) const BREAK_ON_CLOTH: Case = Case {
     source: file!("break-on-cloth"),
     demands: &[
         at_most(0.0, "", "balls that do not rest"),
-        at_most(1e-11, "", "energy residual"),
-        at_most(1e-12, "", "momentum residual"),
-        at_most(1e-12, "", "angular momentum residual"),
-        at_most(1e-6, "m", "overlap"),
+        at_most(1e-12, "", "energy residual"),
+        at_most(1e-13, "", "momentum residual"),
+        at_most(1e-13, "", "angular momentum residual"),
+        at_most(1e-12, "m", "overlap"),
         reported("s", "the last ball rests at"),
     ],
     budget: 1_000_000,

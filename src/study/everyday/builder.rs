@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::{DVec3, dvec3};
 
-use crate::scene::{Body, Force, ForceKind, Map, Motion, NodeKey, Scene, Shape, SimParams};
+use crate::scene::{Body, Force, ForceKind, Map, Motion, Scene, Shape, SimParams};
 use crate::study::Random;
 
 /// UserIDs below this are the walls that close the scene, their normals inwards.
@@ -78,18 +78,7 @@ impl Builder {
 
     pub(super) fn force(&mut self, kind: ForceKind) {
         let id = self.forces.len() as i64 + 1;
-        let key = NodeKey(1_000_000 + id as u64);
-        let label = id.to_string();
-        self.forces.push(Force {
-            key,
-            id,
-            label,
-            name: None,
-            group: None,
-            hidden: false,
-            locked: false,
-            kind,
-        });
+        self.forces.push(Force::new(id, kind));
     }
 
     /// A plate that closes the scene; its normal, local +z, points inwards.

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::{DVec3, dvec3};
-use polyscene::scene::{Body, Force, ForceKind, Map, Motion, NodeKey, Scene, Shape, SimParams};
+use polyscene::scene::{Body, Force, ForceKind, Map, Motion, Scene, Shape, SimParams};
 
 /// An empty map of 10×10×10 m and as many tiles.
 pub fn empty() -> Scene {
@@ -27,7 +27,7 @@ pub trait Build: Sized {
 
     fn force(mut self, kind: ForceKind) -> Self {
         let id = self.scene().forces.len() as i64 + 1;
-        self.scene().forces.push(force(id, kind));
+        self.scene().forces.push(Force::new(id, kind));
         self
     }
 
@@ -100,24 +100,15 @@ pub fn plate(id: i64, position: DVec3, rotation: DVec3, half_x: f64, half_y: f64
     body(id, position, rotation, Motion::Static, Shape::Plane { half_x, half_y })
 }
 
-pub fn force(id: i64, kind: ForceKind) -> Force {
-    Force {
-        key: NodeKey(1_000_000 + id as u64),
-        id,
-        label: id.to_string(),
-        name: None,
-        group: None,
-        hidden: false,
-        locked: false,
-        kind,
-    }
-}
-
 /// Changes of one body, chained.
 pub trait Shaped {
     fn bounce(self, bounce: f64) -> Self;
     fn radius(self, radius: f64) -> Self;
     fn mass(self, mass: f64) -> Self;
+    fn friction(self, friction: f64) -> Self;
+    fn rolling(self, rolling: f64) -> Self;
+    fn tangential(self, tangential: f64) -> Self;
+    fn spin(self, spin: DVec3) -> Self;
 }
 
 impl Shaped for Body {
@@ -135,6 +126,26 @@ impl Shaped for Body {
         if let Motion::Dynamic { mass, .. } = &mut self.motion {
             *mass = new_mass;
         }
+        self
+    }
+
+    fn friction(mut self, friction: f64) -> Self {
+        self.roughness.friction = friction;
+        self
+    }
+
+    fn rolling(mut self, rolling: f64) -> Self {
+        self.roughness.rolling = rolling;
+        self
+    }
+
+    fn tangential(mut self, tangential: f64) -> Self {
+        self.roughness.tangential = tangential;
+        self
+    }
+
+    fn spin(mut self, spin: DVec3) -> Self {
+        self.spin = spin;
         self
     }
 }
@@ -160,8 +171,8 @@ pub fn thesis() -> Scene {
     let mut scene = empty();
     let acceleration = dvec3(0.0, -3.0, 0.0);
     scene.forces = vec![
-        force(9318, ForceKind::GravityPlane { position: dvec3(6.0, 0.0, 3.0), acceleration }),
-        force(7045, ForceKind::GravityPoint { position: DVec3::splat(5.0), intensity: 8.0 }),
+        Force::new(9318, ForceKind::GravityPlane { position: dvec3(6.0, 0.0, 3.0), acceleration }),
+        Force::new(7045, ForceKind::GravityPoint { position: DVec3::splat(5.0), intensity: 8.0 }),
     ];
     for (id, position, rotation, [half_x, half_y]) in plates {
         scene = scene.plate(id, position.into(), rotation.into(), half_x, half_y);

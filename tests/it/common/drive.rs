@@ -133,6 +133,15 @@ pub fn was_stepped(sim: &Simulation) -> bool {
     sim.counters().steps > 0
 }
 
+/// Fails where energy, momentum or angular momentum is not what the books say.
+pub fn assert_books(sim: &Simulation, limit: f64) {
+    let residual = sim.energy().residual.expect("gravity has a potential");
+    assert!(residual.abs() <= limit, "t {}: energy residual {residual:e}", sim.time());
+    assert!(sim.momentum().residual <= 1e-13, "momentum residual {:e}", sim.momentum().residual);
+    let angular = sim.angular_momentum().expect("a scene that rubs").residual;
+    assert!(angular <= 1e-13, "angular momentum residual {angular:e}");
+}
+
 pub fn impacts(events: &[Event]) -> Vec<&Event> {
     events.iter().filter(|event| event.kind == EventKind::Impact).collect()
 }
@@ -158,5 +167,8 @@ fn event_bits(event: &Event) -> impl PartialEq + std::fmt::Debug {
 
 fn state_bits(state: &BodyState) -> impl PartialEq + std::fmt::Debug {
     let vectors = [state.position, state.velocity, state.acceleration];
-    (vectors.map(|v| v.to_array().map(f64::to_bits)), state.contact)
+    let turn = state
+        .turn
+        .map(|turn| (turn.orientation.to_array().map(f64::to_bits), turn.spin.to_array().map(f64::to_bits)));
+    (vectors.map(|v| v.to_array().map(f64::to_bits)), turn, state.contact)
 }
