@@ -55,6 +55,21 @@ pub struct Force {
 }
 
 impl Force {
+    /// A force as scenes made by code have them: named by its UserID, which is its key too. Give the rest by
+    /// `Force { hidden: true, ..Force::new(…) }`.
+    pub fn new(id: i64, kind: ForceKind) -> Self {
+        Self {
+            key: NodeKey(id.unsigned_abs()),
+            id,
+            label: id.to_string(),
+            name: None,
+            group: None,
+            hidden: false,
+            locked: false,
+            kind,
+        }
+    }
+
     /// What to call this force in front of a person: its name, or its label.
     pub fn display_name(&self) -> &str {
         self.name.as_deref().unwrap_or(&self.label)

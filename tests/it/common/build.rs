@@ -101,16 +101,7 @@ pub fn plate(id: i64, position: DVec3, rotation: DVec3, half_x: f64, half_y: f64
 }
 
 pub fn force(id: i64, kind: ForceKind) -> Force {
-    Force {
-        key: NodeKey(1_000_000 + id as u64),
-        id,
-        label: id.to_string(),
-        name: None,
-        group: None,
-        hidden: false,
-        locked: false,
-        kind,
-    }
+    Force { key: NodeKey(1_000_000 + id as u64), ..Force::new(id, kind) }
 }
 
 /// Changes of one body, chained.
