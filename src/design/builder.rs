@@ -102,14 +102,9 @@ impl Builder {
 
     pub fn force(&mut self, name: &str, kind: ForceKind) {
         let force = Force {
-            key: NodeKey::default(),
-            id: self.next_force,
-            label: String::new(),
             name: Some(name.to_owned()),
             group: self.group.clone(),
-            hidden: false,
-            locked: false,
-            kind,
+            ..Force::new(self.next_force, kind)
         };
         self.next_force = self.next_force.saturating_add(1);
         self.edits.push(Edit::AddForce(Box::new(force)));

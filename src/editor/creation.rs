@@ -48,16 +48,7 @@ fn add_body(body: Body) -> Edit {
 
 fn add_force(scene: &Scene, kind: ForceKind) -> Edit {
     let id = scene.forces.iter().map(|force| force.id).max().unwrap_or(0).saturating_add(1);
-    Edit::AddForce(Box::new(Force {
-        key: NodeKey::default(),
-        id,
-        label: String::new(),
-        name: None,
-        group: None,
-        hidden: false,
-        locked: false,
-        kind,
-    }))
+    Edit::AddForce(Box::new(Force::new(id, kind)))
 }
 
 fn sphere(scene: &Scene, motion: Motion) -> Body {

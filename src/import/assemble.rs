@@ -5,7 +5,7 @@ use glam::{DMat3, DVec3};
 use super::log::Log;
 use super::piece::{Piece, PieceShape, Pose, World};
 use crate::export::Verdict;
-use crate::scene::{Body, Force, ForceKind, Map, Motion, NodeKey, Scene, Shape, SimParams};
+use crate::scene::{Body, Force, ForceKind, Map, Motion, NodeKey, Roughness, Scene, Shape, SimParams};
 
 /// A box of at most this half thickness, in radii of the smallest moving sphere, is taken for a plate.
 const PLATE: f64 = 0.02;
@@ -38,7 +38,7 @@ pub(super) fn scene(world: World, log: &mut Log) -> Scene {
     }
     number(&mut bodies, &pieces);
     let mut forces = Vec::new();
-    let mut force = |kind| forces.push(new_force(forces.len() as i64 + 1, kind));
+    let mut force = |kind| forces.push(Force::new(forces.len() as i64 + 1, kind));
     if gravity != DVec3::ZERO {
         let position = DVec3::new(0.5 * map.size.x, 0.9 * map.size.y, 0.5 * map.size.z);
         force(ForceKind::GravityPlane { position, acceleration: y_up(gravity) });
@@ -47,19 +47,6 @@ pub(super) fn scene(world: World, log: &mut Log) -> Scene {
         force(ForceKind::Drag { density });
     }
     Scene { map, time_speed, params: SimParams::default(), forces, bodies }
-}
-
-fn new_force(id: i64, kind: ForceKind) -> Force {
-    Force {
-        key: NodeKey(id.unsigned_abs()),
-        id,
-        label: id.to_string(),
-        name: None,
-        group: None,
-        hidden: false,
-        locked: false,
-        kind,
-    }
 }
 
 /// (x, y, z) → (x, z, −y).
@@ -201,6 +188,8 @@ fn body(piece: &Piece, pose: Pose, shape: Shape) -> Body {
         hidden: piece.hidden,
         rotation: angles(pose.turn),
         bounce: piece.bounce,
+        roughness: Roughness { friction: piece.friction, ..Roughness::default() },
+        spin: y_up(piece.spin),
         ..Body::new(piece.id.unwrap_or(0), y_up(pose.place), motion, shape)
     }
 }

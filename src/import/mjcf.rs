@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 use glam::{DMat3, DQuat, DVec3};
 
 use super::log::Log;
-use super::mjcf_contact::{Contact, USUAL_SOLREF, give_bounces, restitution};
+use super::mjcf_contact::{Contact, USUAL_FRICTION, USUAL_SOLREF, give_surfaces, restitution, sliding};
 use super::mjcf_defaults::Defaults;
 use super::piece::{Piece, PieceShape, Pose, World};
 use super::values::{array, checked, color, numbers, positive};
@@ -32,7 +32,7 @@ pub(super) fn read(root: XmlElement<'_>, log: &mut Log) -> World {
         pieces: Vec::new(),
         contacts: Vec::new(),
         geoms: BTreeMap::new(),
-        drag_shares: Vec::new(),
+        movers: Vec::new(),
         log,
     };
     reader.compiler();
@@ -51,7 +51,7 @@ pub(super) fn read(root: XmlElement<'_>, log: &mut Log) -> World {
             _ => reader.log.dropped(child, &format!("<{}>", child.name()), "it is not known here"),
         }
     }
-    give_bounces(&mut reader.pieces, &reader.contacts);
+    give_surfaces(&mut reader.pieces, &reader.contacts);
     reader.pairs();
     reader.keyframe();
     reader.world()
@@ -67,9 +67,18 @@ struct Reader<'a, 'l> {
     contacts: Vec<Contact>,
     /// Names of geoms, and which piece each is.
     geoms: BTreeMap<String, usize>,
-    /// By how much this program's law of drag must be multiplied, for each moving body.
-    drag_shares: Vec<f64>,
+    /// In the order of the moving bodies.
+    movers: Vec<Mover>,
     log: &'l mut Log,
+}
+
+/// A moving body beside its piece.
+struct Mover {
+    /// Where the body is, and its geom in it.
+    frame: Pose,
+    geom: Pose,
+    /// By how much this program's law of drag must be multiplied.
+    drag_share: f64,
 }
 
 impl<'a> Reader<'a, '_> {
@@ -166,21 +175,24 @@ impl<'a> Reader<'a, '_> {
         let color_of = |text: Cow<'_, str>| color(&text);
         let material = attribute("material").and_then(|name| self.material_color(&name));
         let group = attribute("group").and_then(|text| text.trim().parse::<u32>().ok());
+        let inner = self.pose(el);
         let piece = Piece {
             name: own.or(el.attribute("name")).map(Cow::into_owned),
             id: body.attribute("user").and_then(|text| id(&text)),
-            pose: at.then(self.pose(el)),
+            pose: at.then(inner),
             motion: free.map(|body| (self.mass(body, el, class, shape), DVec3::ZERO)),
             shape,
+            spin: DVec3::ZERO,
             bounce: 1.0,
+            friction: 0.0,
             color: attribute("rgba").and_then(color_of).or(material),
             // The viewer shows the groups 0 to 2 at first.
             hidden: group.is_some_and(|group| group > 2),
         };
         if free.is_some() {
-            self.drag_shares.push(self.drag_share(el, class));
+            let drag_share = self.drag_share(el, class);
+            self.movers.push(Mover { frame: at, geom: inner, drag_share });
         }
-        self.friction(el, class);
         let contact = self.contact(el, class);
         if let Some(name) = el.attribute("name") {
             self.geoms.insert(name.into_owned(), self.pieces.len());
@@ -228,16 +240,24 @@ impl<'a> Reader<'a, '_> {
             let how = "as the restitution of its damping; impacts here take no time";
             self.log.note(Verdict::Approximated, "contact of a geom", how, el.position());
         }
-        Contact { solref: solref.unwrap_or(USUAL_SOLREF), priority, solmix }
-    }
-
-    fn friction(&mut self, el: XmlElement<'a>, class: Option<&str>) {
-        let dim = self.defaults.attribute(el, class, "condim");
-        if dim.as_deref().map(str::trim) == Some("1") {
+        let friction = self.friction(el, class);
+        if friction.is_none() {
             self.log.note(Verdict::Kept, "contact without friction", "", el.position());
         } else {
-            self.log.dropped(el, "friction of a geom", "contact here is without friction, as with condim 1");
+            let how = "as Friction; a pair here has the geometric mean of both, and nothing resists spin or rolling";
+            self.log.note(Verdict::Approximated, "friction of a geom", how, el.position());
         }
+        Contact { solref: solref.unwrap_or(USUAL_SOLREF), friction, priority, solmix }
+    }
+
+    /// The first of its coefficients, which is for sliding; `None` with condim 1.
+    fn friction(&self, el: XmlElement<'a>, class: Option<&str>) -> Option<f64> {
+        let attribute = |name: &str| self.defaults.attribute(el, class, name);
+        if attribute("condim").as_deref().map(str::trim) == Some("1") {
+            return None;
+        }
+        let said = attribute("friction").and_then(|text| numbers(&text)?.first().copied());
+        Some(said.unwrap_or(USUAL_FRICTION).max(0.0))
     }
 
     /// Of a moving sphere, kg.
@@ -318,7 +338,7 @@ impl<'a> Reader<'a, '_> {
         Some(DMat3::from_quat(DQuat::from_rotation_arc(DVec3::Z, z)))
     }
 
-    /// Restitution that is written for a pair must be the product of the two Bounce values, or is lost.
+    /// What is written for a pair must be the product of the two Bounce values and the mean of the frictions, or is lost.
     fn pairs(&mut self) {
         let contacts = self.root.children().filter(|child| child.name() == "contact");
         let found: Vec<_> = contacts.flat_map(XmlElement::children).collect();
@@ -327,23 +347,24 @@ impl<'a> Reader<'a, '_> {
                 self.log.dropped(el, &format!("<{}>", el.name()), "all bodies here touch each other");
                 continue;
             }
-            let bounce = |name| {
+            let surface = |name| {
                 let at = self.geoms.get(&*el.attribute(name)?)?;
-                self.pieces.get(*at).map(|piece| piece.bounce)
+                self.pieces.get(*at).map(|piece| (piece.bounce, piece.friction))
             };
             let solref = self.defaults.attribute(el, None, "solref").and_then(|text| array::<2>(&text));
             let said = restitution(solref.unwrap_or(USUAL_SOLREF));
-            match bounce("geom1").zip(bounce("geom2")) {
-                Some((one, other)) if (one * other - said).abs() <= 1e-6 => {
-                    self.log.note(
-                        Verdict::Kept,
-                        "restitution of a pair",
-                        "as the product of both Bounce values",
-                        el.position(),
-                    );
+            let rubs = self.friction(el, None).unwrap_or(0.0);
+            match surface("geom1").zip(surface("geom2")) {
+                Some((one, other))
+                    if (one.0 * other.0 - said).abs() <= 1e-6
+                        && (sliding(one.1, other.1) - rubs).abs() <= 1e-6 * rubs.max(1.0) =>
+                {
+                    let how = "as the product of both Bounce values, and the mean of the frictions";
+                    self.log.note(Verdict::Kept, "contact of a pair", how, el.position());
                 }
                 _ => {
-                    let how = "a pair here has the product of both Bounce values";
+                    let how =
+                        "a pair here has the product of both Bounce values, and the mean of the frictions";
                     self.log.note(Verdict::Approximated, "contact of a pair", how, el.position());
                 }
             }
@@ -371,25 +392,23 @@ impl<'a> Reader<'a, '_> {
                 format!("the keyframe has not 7 places and 6 speeds for each of {count} moving bodies");
             return self.log.error(key, text, "");
         }
-        let mut spins = false;
-        for (nth, piece) in moving.into_iter().enumerate() {
+        for ((nth, piece), mover) in moving.into_iter().enumerate().zip(&self.movers) {
+            let mut frame = mover.frame;
             if let Some([x, y, z, w, i, j, k]) = nth_of::<7>(&places, nth) {
                 let turn = DQuat::from_xyzw(i, j, k, w);
-                let turn =
-                    if turn.length() > 0.0 { DMat3::from_quat(turn.normalize()) } else { piece.pose.turn };
-                piece.pose = Pose { place: DVec3::new(x, y, z), turn };
+                let turn = if turn.length() > 0.0 { DMat3::from_quat(turn.normalize()) } else { frame.turn };
+                frame = Pose { place: DVec3::new(x, y, z), turn };
+                piece.pose = frame.then(mover.geom);
             }
+            // The speed is that of the body's origin, and the spin is in the axes of the body.
             if let (Some([x, y, z, spin @ ..]), Some((_, velocity))) =
                 (nth_of::<6>(&speeds, nth), &mut piece.motion)
             {
-                *velocity = DVec3::new(x, y, z);
-                spins |= spin != [0.0; 3];
+                piece.spin = frame.turn * DVec3::from(spin);
+                *velocity = DVec3::new(x, y, z) + piece.spin.cross(frame.turn * mover.geom.place);
             }
         }
         self.log.note(Verdict::Kept, "keyframe", "as the start", key.position());
-        if spins {
-            self.log.dropped(key, "spin at the start", "bodies here do not turn");
-        }
     }
 
     fn world(&mut self) -> World {
@@ -426,16 +445,15 @@ impl<'a> Reader<'a, '_> {
     }
 
     fn drag(&mut self, el: XmlElement<'a>, density: f64) -> f64 {
-        let shares = &self.drag_shares;
-        let first = shares.first().copied().unwrap_or(1.0);
+        let first = self.movers.first().map_or(1.0, |mover| mover.drag_share);
         let (verdict, how) = if first == BOX_DRAG {
             (Verdict::Approximated, "MuJoCo takes the box of a body's inertia, and this program the sphere")
-        } else if shares.iter().any(|share| *share != first) {
+        } else if self.movers.iter().any(|mover| mover.drag_share != first) {
             (Verdict::Approximated, "bodies with different coefficients all get that of the first")
         } else {
             (Verdict::Kept, "as the density of air")
         };
-        if density > 0.0 && !shares.is_empty() {
+        if density > 0.0 && !self.movers.is_empty() {
             self.log.note(verdict, "drag of the medium", how, el.position());
         }
         (density * first).max(0.0)

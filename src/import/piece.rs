@@ -29,7 +29,11 @@ pub(super) struct Piece {
     pub shape: PieceShape,
     /// Mass in kg and velocity in m/s of what moves.
     pub motion: Option<(f64, DVec3)>,
+    /// Angular velocity of what moves, rad/s.
+    pub spin: DVec3,
     pub bounce: f64,
+    /// Coefficient μ of Coulomb's friction.
+    pub friction: f64,
     pub color: Option<[u8; 3]>,
     pub hidden: bool,
 }

@@ -13,6 +13,9 @@ use crate::scene::XmlElement;
 /// As SDF has it, m/s².
 const GRAVITY: DVec3 = DVec3::new(0.0, 0.0, -9.8);
 
+/// As SDF has it, in both directions.
+const USUAL_FRICTION: f64 = 1.0;
+
 /// Restitution below a closing speed of `threshold` is 0; this one nothing reaches.
 const USUAL_THRESHOLD: f64 = 1e5;
 
@@ -156,7 +159,7 @@ impl Reader<'_> {
             let Some((pose, shape)) = self.collision(collision, fixed) else { continue };
             let mut piece = new_piece(model.attribute("name").map(Into::into), at.then(pose), shape);
             piece.bounce = self.bounce(collision);
-            self.friction(collision);
+            piece.friction = self.friction(collision);
             piece.hidden = visual.is_none();
             piece.color = visual.and_then(color_of);
             if !fixed {
@@ -226,19 +229,33 @@ impl Reader<'_> {
         restitution
     }
 
-    fn friction(&mut self, collision: XmlElement<'_>) {
+    /// The first of two directions; what a pair makes of both bodies' is the mean here.
+    fn friction(&mut self, collision: XmlElement<'_>) -> f64 {
         let friction = collision.child("surface").and_then(|surface| surface.child("friction"));
         let ode = friction.and_then(|friction| friction.child("ode"));
-        let number = |name: &str| ode.and_then(|ode| ode.child(name)).and_then(|el| array::<1>(&el.text()));
-        if [number("mu"), number("mu2")] == [Some([0.0]); 2] {
+        let number = |name: &str| {
+            let said = ode.and_then(|ode| ode.child(name)).and_then(|el| array::<1>(&el.text()));
+            said.map_or(USUAL_FRICTION, |[value]| value.max(0.0))
+        };
+        let (first, second) = (number("mu"), number("mu2"));
+        if first == 0.0 && second == 0.0 {
             self.log.note(Verdict::Kept, "contact without friction", "", collision.position());
         } else {
+            let how = if first == second {
+                "as Friction; a pair here has the geometric mean of both, ODE the smaller"
+            } else {
+                "as Friction, its mu in all directions; a pair here has the geometric mean of both, ODE the smaller"
+            };
+            self.log.note(Verdict::Approximated, "friction of a surface", how, collision.position());
+        }
+        if friction.and_then(|friction| friction.child("torsional")).is_some() {
             self.log.dropped(
                 collision,
-                "friction of a surface",
-                "contact here is without friction, as with mu 0",
+                "torsional friction of a surface",
+                "what only spins on its place is not slowed here",
             );
         }
+        first
     }
 
     fn mass(&mut self, link: XmlElement<'_>) -> f64 {
@@ -287,7 +304,6 @@ impl Reader<'_> {
 
     /// Places and velocities at the start, by the names of models.
     fn state(&mut self, el: XmlElement<'_>) {
-        let mut spins = false;
         let moving = self.world.pieces.iter().enumerate().filter(|(_, piece)| piece.motion.is_some());
         let named = moving.filter_map(|(at, piece)| Some((piece.name.clone()?, at)));
         let named: BTreeMap<_, _> = named.collect();
@@ -301,19 +317,17 @@ impl Reader<'_> {
             piece.pose = pose.unwrap_or(piece.pose);
             if let (Some([x, y, z, spin @ ..]), Some((_, now))) = (velocity, &mut piece.motion) {
                 *now = DVec3::new(x, y, z);
-                spins |= spin != [0.0; 3];
+                piece.spin = DVec3::from(spin);
             }
         }
         self.log.note(Verdict::Kept, "state of the world", "as the start", el.position());
-        if spins {
-            self.log.dropped(el, "spin at the start", "bodies here do not turn");
-        }
     }
 }
 
 fn new_piece(name: Option<String>, pose: Pose, shape: PieceShape) -> Piece {
-    let (id, motion, bounce, color, hidden) = (None, None, 0.0, None, false);
-    Piece { name, id, pose, shape, motion, bounce, color, hidden }
+    let (id, motion, color, hidden) = (None, None, None, false);
+    let (spin, bounce, friction) = (DVec3::ZERO, 0.0, USUAL_FRICTION);
+    Piece { name, id, pose, shape, motion, spin, bounce, friction, color, hidden }
 }
 
 fn color_of(visual: XmlElement<'_>) -> Option<[u8; 3]> {

@@ -243,50 +243,48 @@ const PLANE: Part = shape(group(
     "a bounded plane, local xy, hit from both sides; of static bodies",
 ));
 
+/// Of both kinds of body, before what a kind has of its own.
+const FIRST: [Part; 7] = [TRANSLATION, ROTATION, BOUNCE, FRICTION, ROLLING, TANGENTIAL, MATERIAL];
+/// And after it.
+const LAST: [Part; 4] = [unbuilt("Box"), unbuilt("Cylinder"), unbuilt("Mesh"), unbuilt("Compound")];
+
+/// What a kind of body holds: its own parts between those that both have. `N` is the number of all.
+const fn body_parts<const N: usize>(own: &[Part]) -> [Part; N] {
+    assert!(N == FIRST.len() + own.len() + LAST.len());
+    let mut parts = [TRANSLATION; N];
+    let mut at = 0;
+    while at < N {
+        parts[at] = if at < FIRST.len() {
+            FIRST[at]
+        } else if at < FIRST.len() + own.len() {
+            own[at - FIRST.len()]
+        } else {
+            LAST[at - FIRST.len() - own.len()]
+        };
+        at += 1;
+    }
+    parts
+}
+
 const BODIES: &[ElementInfo] = &[
     ElementInfo {
         name: "SoftObject",
         since: Since::V1_0,
         meaning: "a dynamic body",
         attributes: USER_ID,
-        content: Content::Parts(&[
-            TRANSLATION,
-            ROTATION,
-            BOUNCE,
-            FRICTION,
-            ROLLING,
-            TANGENTIAL,
-            MATERIAL,
+        content: Content::Parts(&body_parts::<15>(&[
             or(leaf("Weight", Since::V1_0, POSITIVE, "mass, kg"), "1"),
             or(leaf("InitialVelocity", Since::V1_0, VECTOR, "m/s"), "0"),
             or(leaf("InitialAngularVelocity", Since::V1_1, VECTOR, "rad/s, about the axes of the map"), "0"),
             SPHERE,
-            unbuilt("Box"),
-            unbuilt("Cylinder"),
-            unbuilt("Mesh"),
-            unbuilt("Compound"),
-        ]),
+        ])),
     },
     ElementInfo {
         name: "HardObject",
         since: Since::V1_0,
         meaning: "a static body",
         attributes: USER_ID,
-        content: Content::Parts(&[
-            TRANSLATION,
-            ROTATION,
-            BOUNCE,
-            FRICTION,
-            ROLLING,
-            TANGENTIAL,
-            MATERIAL,
-            SPHERE,
-            PLANE,
-            unbuilt("Box"),
-            unbuilt("Cylinder"),
-            unbuilt("Mesh"),
-            unbuilt("Compound"),
-        ]),
+        content: Content::Parts(&body_parts::<13>(&[SPHERE, PLANE])),
     },
 ];
 

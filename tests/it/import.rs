@@ -52,7 +52,12 @@ fn a_scene_of_mujoco_comes_with_its_places_masses_and_start() {
     assert!((one.position - shift - DVec3::new(-1.0, 3.0, -2.0)).length() < 1e-12, "{one:?}");
     assert_eq!(one.motion, Motion::Dynamic { mass: 2.0, velocity: DVec3::new(1.0, 3.0, -2.0) });
     assert_eq!((one.shape.clone(), one.color), (Shape::Sphere { radius: 0.2 }, Some([255, 0, 0])));
-    let Motion::Dynamic { mass, .. } = body(scene, "two").motion else { panic!() };
+    let two = body(scene, "two");
+    assert_eq!(two.spin, DVec3::new(4.0, 0.0, 0.0));
+    // Without friction is one; the floor meets two with the larger of both.
+    let frictions = ["one", "two", "floor"].map(|name| body(scene, name).roughness.friction);
+    assert_eq!(frictions, [0.0, 1.0, 1.0]);
+    let Motion::Dynamic { mass, .. } = two.motion else { panic!() };
     assert!((mass - 500.0 * 4.0 / 3.0 * std::f64::consts::PI * 0.001).abs() < 1e-12);
     let post = body(scene, "post");
     assert_eq!(post.color, Some([0, 255, 0]));
@@ -76,8 +81,7 @@ fn a_scene_of_mujoco_comes_with_its_places_masses_and_start() {
         "kept: box that stands still",
         "approximated: plane without end",
         "dropped: geom that touches nothing",
-        "14:54: dropped: friction of a geom",
-        "dropped: spin at the start",
+        "14:54: approximated: friction of a geom",
         "approximated: the scene is moved",
         "not needed: <sensor>",
     ] {
@@ -97,12 +101,12 @@ fn a_world_of_gazebo_comes_with_its_surfaces() {
     assert!((ball.position - floor.position - DVec3::new(1.0, 3.0, -2.5)).length() < 1e-12, "{ball:?}");
     assert_eq!((ball.bounce, ball.color), (0.8, Some([255, 128, 0])));
     assert_eq!(ball.motion, Motion::Dynamic { mass: 5.0, velocity: DVec3::ZERO });
-    assert_eq!(floor.bounce, 0.0);
+    assert_eq!((floor.bounce, floor.roughness.friction, ball.roughness.friction), (0.0, 1.0, 1.0));
     let side = body(scene, "crate +x");
     assert!((side.position - floor.position - DVec3::new(-2.5, 0.5, 0.0)).length() < 1e-12 && side.hidden);
     let said = lines(&imported);
     assert!(
-        said.contains("not needed: <include>") && said.contains("dropped: 2 × friction of a surface"),
+        said.contains("not needed: <include>") && said.contains("approximated: 2 × friction of a surface"),
         "{said}"
     );
 }
@@ -199,12 +203,13 @@ const BOTH: &str = r##"<PolyPhysicsXml Version="1.1">
   </Forces></Simulation>
   <Primitives>
     <SoftObject UserID="17"><?polyscene name="red ball" color="#ff0000"?>
-      <Translation X="1.5" Y="2" Z="3" /><Bounce F32="0.9" /><Weight F32="2" /><InitialVelocity X="1" Y="-2" Z="3" />
+      <Translation X="1.5" Y="2" Z="3" /><Rotation X="0.3" Y="-0.5" Z="1" /><Bounce F32="0.9" />
+      <Friction F32="0.3" /><Weight F32="2" /><InitialAngularVelocity X="5" Y="-6" Z="7" /><InitialVelocity X="1" Y="-2" Z="3" />
       <Sphere><Radius F32="0.25" /></Sphere></SoftObject>
-    <SoftObject UserID="5"><Translation X="4" Y="2" Z="1" /><Bounce F32="0.9" /><Sphere><Radius F32="0.5" /></Sphere></SoftObject>
+    <SoftObject UserID="5"><Translation X="4" Y="2" Z="1" /><Bounce F32="0.8" /><Friction F32="0.6" /><Sphere><Radius F32="0.5" /></Sphere></SoftObject>
     <HardObject UserID="9"><?polyscene hidden="1"?><Translation X="3" Y="1" Z="1" /><Bounce F32="0.4" /><Sphere><Radius F32="0.125" /></Sphere></HardObject>
     <HardObject UserID="8"><?polyscene name="floor"?><Translation X="5" Y="0" Z="2" /><Rotation X="-1.5707963267948966" Y="0" Z="0" />
-      <Bounce F32="0.7" /><Plane><HalfSideX F32="5" /><HalfSideY F32="2" /></Plane></HardObject>
+      <Bounce F32="0.7" /><Friction F32="0.2" /><Plane><HalfSideX F32="5" /><HalfSideY F32="2" /></Plane></HardObject>
     <HardObject UserID="7"><?polyscene name="lid"?><Translation X="5" Y="4.5" Z="2" /><Rotation X="1.2" Y="0.3" Z="-0.4" />
       <Bounce F32="1" /><Plane><HalfSideX F32="5" /><HalfSideY F32="2" /></Plane></HardObject>
   </Primitives>
@@ -228,6 +233,8 @@ fn assert_same_bodies(back: &Scene, ids: bool) {
         assert!((a.position - b.position).length() < 1e-12, "{a:?}\n{b:?}");
         assert!(rotation_matrix(a.rotation).abs_diff_eq(rotation_matrix(b.rotation), 1e-12), "{a:?}\n{b:?}");
         assert!((a.bounce - b.bounce).abs() < 1e-8, "{a:?}\n{b:?}");
+        assert!((a.roughness.friction - b.roughness.friction).abs() < 1e-8, "{a:?}\n{b:?}");
+        assert!((a.spin - b.spin).length() < 1e-12, "{a:?}\n{b:?}");
         assert_eq!(a.motion, b.motion);
         if ids {
             assert_eq!((a.id, &a.name), (b.id, &b.name));
@@ -254,6 +261,22 @@ fn a_round_trip_through_sdf_keeps_what_both_can_say() {
     assert_same_bodies(&back, false);
     assert_eq!(back.time_speed, 0.5);
     assert_eq!(body(&back, "red ball").position, DVec3::new(1.5, 2.0, 3.0));
+}
+
+/// Symptom: a ball whose geom is beside its body's origin came without that offset, if there was a keyframe. Expected:
+/// the centre q·r from the origin, with the origin's velocity and ω × q·r. Cause: a keyframe's place and speed, which are
+/// the body's, were taken for those of the geom.
+#[test]
+fn a_keyframe_places_the_body_and_its_geom_with_it() {
+    let file = r#"<mujoco><worldbody>
+      <body name="ball" pos="9 9 9"><freejoint/><geom pos="1 0 0" size=".2" condim="1"/></body></worldbody>
+      <keyframe><key qpos="5 -5 5 1 0 0 1" qvel="0 1 0 1 0 2"/></keyframe></mujoco>"#;
+    let imported = imported(file);
+    let ball = body(scene_of(&imported), "ball");
+    assert!((ball.position - DVec3::new(5.0, 5.0, 4.0)).length() < 1e-12, "{ball:?}");
+    let Motion::Dynamic { velocity, .. } = ball.motion else { panic!("{ball:?}") };
+    assert!((velocity - DVec3::new(-2.0, 0.0, -1.0)).length() < 1e-12, "{ball:?}");
+    assert!((ball.spin - DVec3::new(0.0, 2.0, -1.0)).length() < 1e-12, "{ball:?}");
 }
 
 /// All samples come back from both formats, with as many bodies, in about the time of a reading.

@@ -61,27 +61,13 @@ pub fn furnished_box() -> Scene {
         ball(23, dvec3(8.0, 8.0, 8.0), 0.7),
     ]);
     scene.forces = vec![
-        force(
+        Force::new(
             31,
             ForceKind::GravityPlane { position: dvec3(6.0, 0.0, 3.0), acceleration: dvec3(0.0, -3.0, 0.0) },
         ),
-        force(32, ForceKind::GravityPoint { position: DVec3::splat(5.0), intensity: 8.0 }),
+        Force::new(32, ForceKind::GravityPoint { position: DVec3::splat(5.0), intensity: 8.0 }),
     ];
     scene
-}
-
-pub fn force(key: u64, kind: ForceKind) -> Force {
-    let id = key as i64;
-    Force {
-        key: NodeKey(key),
-        id,
-        label: id.to_string(),
-        name: None,
-        group: None,
-        hidden: false,
-        locked: false,
-        kind,
-    }
 }
 
 pub fn pressed(keys: [u64; 2], ends: [DVec3; 2], force: f64) -> ContactFrame {

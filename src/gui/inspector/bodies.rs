@@ -1,6 +1,6 @@
 //! Bodies: what they start with, and what they do now.
 
-use egui::{Color32, Grid, RichText, Sense, Stroke, StrokeKind, Ui, vec2};
+use egui::{Color32, Grid, Response, RichText, Sense, Stroke, StrokeKind, Ui, vec2};
 
 use super::number::{Number, WIDTH, number};
 use super::section;
@@ -12,6 +12,9 @@ use crate::gui::numbers::significant;
 use crate::gui::widgets::mono;
 use crate::record::BodyFrame;
 use crate::scene::{Body, BodyChange, Edit, NodeKey, Shape};
+
+/// Width of the names of rows, points: the longest of them with its axis.
+const LABEL_WIDTH: f32 = 116.0;
 
 pub fn kind(body: &Body) -> &'static str {
     match (&body.shape, body.is_dynamic()) {
@@ -186,14 +189,17 @@ fn rows(
     }
 }
 
-pub fn row_label(ui: &mut Ui, label: &str, axis: &str) {
+/// A row's name and axis; the response is that of the name.
+pub fn row_label(ui: &mut Ui, label: &str, axis: &str) -> Response {
     ui.horizontal(|ui| {
-        ui.set_min_width(96.0);
-        ui.label(label);
+        ui.set_min_width(LABEL_WIDTH);
+        let response = ui.label(label);
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.label(RichText::new(axis).color(tones(ui).weak));
         });
-    });
+        response
+    })
+    .inner
 }
 
 /// The unit of an angle with what it is in degrees.
@@ -269,13 +275,7 @@ fn motion(ui: &mut Ui, now: &BodyFrame) {
 }
 
 fn row(ui: &mut Ui, [label, axis]: [&str; 2], value: String, unit: &str, help: &str) {
-    ui.horizontal(|ui| {
-        ui.set_min_width(112.0);
-        ui.label(label).on_hover_text(help);
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            ui.label(RichText::new(axis).color(tones(ui).weak));
-        });
-    });
+    row_label(ui, label, axis).on_hover_text(help);
     ui.label(mono(value));
     ui.label(RichText::new(unit).color(tones(ui).weak));
     ui.end_row();
