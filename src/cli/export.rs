@@ -1,7 +1,7 @@
 //! `polyscene export`: a scene for another program, and what that program cannot be told.
 
 use std::io::IsTerminal as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 
 use clap::Args;
@@ -12,7 +12,7 @@ use super::output::{self, is_stdout};
 use super::{CliError, input, interrupt, number};
 use crate::export::{ExportError, Exported, FORMATS, Format, Frames, Report, When};
 use crate::record::Watch;
-use crate::scene::{Document, check_writable, shown_path, write_atomically};
+use crate::scene::Document;
 use crate::sim::Method;
 
 /// Write a scene for another program
@@ -80,7 +80,8 @@ fn formats() -> PossibleValuesParser {
 pub(super) fn export(args: &ExportArgs) -> Result<(), CliError> {
     let format = FORMATS.iter().find(|format| format.id == args.to);
     let format = format.ok_or_else(|| CliError::Usage(format!("there is no format {}", args.to)))?;
-    refuse_bad_output(args, format)?;
+    output::refuse_bad(&args.output, ("the scene", &args.scene), args.force)?;
+    refuse_terminal(args, format)?;
     let name = input::display_name(&args.scene);
     let when = args.when()?;
     let watchdog = args.limits.watchdog();
@@ -99,7 +100,7 @@ pub(super) fn export(args: &ExportArgs) -> Result<(), CliError> {
     if args.strict {
         refuse_losses(&name, format, &report)?;
     }
-    write(&args.output, &bytes)
+    output::write(&args.output, &bytes)
 }
 
 impl ExportArgs {
@@ -148,23 +149,9 @@ fn exported(
     })
 }
 
-/// Before the work: a place that must not or cannot be written.
-fn refuse_bad_output(args: &ExportArgs, format: &Format) -> Result<(), CliError> {
-    let output = &args.output;
-    if output::overwrites(output, &args.scene) {
-        let message = format!("--output would overwrite the scene {}", shown_path(output));
-        return Err(CliError::Usage(message));
-    }
-    if !args.force && output::holds_something(output) {
-        let name = shown_path(output);
-        return Err(CliError::Usage(format!(
-            "--output would overwrite {name}: give another name, or --force"
-        )));
-    }
-    if !is_stdout(output) {
-        return check_writable(output).map_err(|error| CliError::unwritable(output, &error));
-    }
-    if format.is_binary && std::io::stdout().is_terminal() {
+/// A binary file is not for a terminal.
+fn refuse_terminal(args: &ExportArgs, format: &Format) -> Result<(), CliError> {
+    if is_stdout(&args.output) && format.is_binary && std::io::stdout().is_terminal() {
         let message = "a terminal cannot show a binary file; give --output a file or a pipe";
         return Err(CliError::Usage(message.into()));
     }
@@ -180,11 +167,4 @@ fn refuse_losses(name: &str, format: &Format, report: &Report) -> Result<(), Cli
             report.lines.len()
         ))),
     }
-}
-
-fn write(output: &Path, bytes: &[u8]) -> Result<(), CliError> {
-    if is_stdout(output) {
-        return output::print(bytes);
-    }
-    write_atomically(output, bytes).map_err(|error| CliError::unwritable(output, &error))
 }

@@ -7,7 +7,6 @@ use clap::Args;
 use super::output::{self, is_stdout};
 use super::{CliError, input};
 use crate::import::{self, Imported};
-use crate::scene::{check_writable, shown_path};
 
 /// Read a scene of MuJoCo (MJCF) or Gazebo (SDF)
 ///
@@ -40,7 +39,7 @@ pub struct ImportArgs {
 }
 
 pub(super) fn import(args: &ImportArgs) -> Result<(), CliError> {
-    refuse_bad_output(args)?;
+    output::refuse_bad(&args.output, ("the file read,", &args.file), args.force)?;
     let name = input::display_name(&args.file);
     let document = input::read(&args.file)?;
     let Imported { document, report, problems } = import::import(&document, args.leave_out);
@@ -64,21 +63,4 @@ pub(super) fn import(args: &ImportArgs) -> Result<(), CliError> {
         return output::print(&document.to_bytes());
     }
     document.save(&args.output).map_err(|error| CliError::unwritable(&args.output, &error))
-}
-
-fn refuse_bad_output(args: &ImportArgs) -> Result<(), CliError> {
-    let output = &args.output;
-    let name = shown_path(output);
-    if output::overwrites(output, &args.file) {
-        return Err(CliError::Usage(format!("--output would overwrite the file read, {name}")));
-    }
-    if !args.force && output::holds_something(output) {
-        return Err(CliError::Usage(format!(
-            "--output would overwrite {name}: give another name, or --force"
-        )));
-    }
-    if is_stdout(output) {
-        return Ok(());
-    }
-    check_writable(output).map_err(|error| CliError::unwritable(output, &error))
 }

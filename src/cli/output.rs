@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use super::CliError;
-use crate::scene::{FileId, canonical_target, shown_path};
+use crate::scene::{FileId, canonical_target, check_writable, shown_path, write_atomically};
 
 /// Bytes gathered before they are handed to the system in one call.
 const BATCH: usize = 32 * 1024;
@@ -93,6 +93,32 @@ pub fn print(bytes: &[u8]) -> Result<(), CliError> {
     let mut sink = LineSink::create(Path::new("-"))?;
     sink.lines = bytes.to_vec();
     sink.flush()
+}
+
+/// Before the work: refuses a place that cannot be written, that is the input itself (`what` says what that is), or unless
+/// `force` one that holds something.
+pub fn refuse_bad(output: &Path, (what, input): (&str, &Path), force: bool) -> Result<(), CliError> {
+    let name = shown_path(output);
+    if overwrites(output, input) {
+        return Err(CliError::Usage(format!("--output would overwrite {what} {name}")));
+    }
+    if !force && holds_something(output) {
+        return Err(CliError::Usage(format!(
+            "--output would overwrite {name}: give another name, or --force"
+        )));
+    }
+    if is_stdout(output) {
+        return Ok(());
+    }
+    check_writable(output).map_err(|error| CliError::unwritable(output, &error))
+}
+
+/// Writes a whole file in one go, or to standard output for `-`.
+pub fn write(output: &Path, bytes: &[u8]) -> Result<(), CliError> {
+    if is_stdout(output) {
+        return print(bytes);
+    }
+    write_atomically(output, bytes).map_err(|error| CliError::unwritable(output, &error))
 }
 
 /// Writes JSON Lines. Only whole lines are ever handed to the system, and where a disk is full the file ends

@@ -6,10 +6,8 @@ use std::sync::Arc;
 use clap::Args;
 
 use super::limits::LimitArgs;
-use super::output::{self, is_stdout};
-use super::{CliError, input, method, number};
+use super::{CliError, input, method, number, output};
 use crate::record::{InlineRunner, RunCommand, RunState, Runner as _};
-use crate::scene::{check_writable, shown_path, write_atomically};
 use crate::sim::{Fault, Method};
 
 /// Run a scene and write what makes the same run again
@@ -49,7 +47,7 @@ pub struct RecordArgs {
 }
 
 pub(super) fn record(args: &RecordArgs) -> Result<(), CliError> {
-    refuse_bad_output(args)?;
+    output::refuse_bad(&args.output, ("the scene", &args.scene), args.force)?;
     let name = input::display_name(&args.scene);
     let examined = input::open(&args.scene, args.method)?;
     for line in examined.lines(&name) {
@@ -68,7 +66,7 @@ pub(super) fn record(args: &RecordArgs) -> Result<(), CliError> {
     let file = runner.recording(&file_name, &examined.document.to_bytes());
     let file = file.ok_or_else(|| CliError::Scene(format!("{name} cannot be run")))?;
     let bytes = file.to_bytes().map_err(|error| CliError::Usage(error.to_string()))?;
-    write(args, &bytes)?;
+    output::write(&args.output, &bytes)?;
     super::say(format!(
         "{name}: {} s, {} events, {} states to compare, hash {:016x}",
         frame.time,
@@ -83,30 +81,4 @@ pub(super) fn record(args: &RecordArgs) -> Result<(), CliError> {
         }
         _ => Ok(()),
     }
-}
-
-/// Before the work: a place that must not or cannot be written.
-fn refuse_bad_output(args: &RecordArgs) -> Result<(), CliError> {
-    let output = &args.output;
-    if output::overwrites(output, &args.scene) {
-        return Err(CliError::Usage(format!(
-            "--output would overwrite the scene {}",
-            shown_path(&args.scene)
-        )));
-    }
-    if is_stdout(output) {
-        return Ok(());
-    }
-    if output.exists() && !args.force {
-        let text = format!("{} exists already; --force replaces it", shown_path(output));
-        return Err(CliError::Usage(text));
-    }
-    check_writable(output).map_err(|error| CliError::unwritable(output, &error))
-}
-
-fn write(args: &RecordArgs, bytes: &[u8]) -> Result<(), CliError> {
-    if is_stdout(&args.output) {
-        return output::print(bytes);
-    }
-    write_atomically(&args.output, bytes).map_err(|error| CliError::unwritable(&args.output, &error))
 }
