@@ -29,6 +29,8 @@ pub(super) struct Keyframe {
 #[derive(Debug, Default)]
 pub(super) struct Keyframes {
     list: Vec<Keyframe>,
+    /// About what `list` takes, bytes.
+    bytes: usize,
     /// At the end of what is known, while the simulation is elsewhere.
     head: Option<Box<Keyframe>>,
 }
@@ -48,6 +50,7 @@ impl Keyframe {
 
 impl Keyframes {
     pub(super) fn push(&mut self, keyframe: Keyframe) {
+        self.bytes += keyframe.bytes;
         self.list.push(keyframe);
     }
 
@@ -83,16 +86,20 @@ impl Keyframes {
 
     pub(super) fn split_off(&mut self, at: Moment) -> Vec<Keyframe> {
         let kept = self.list.partition_point(|key| key.at.is_not_after(at));
-        self.list.split_off(kept)
+        let rest = self.list.split_off(kept);
+        self.count_bytes();
+        rest
     }
 
     /// Drops those of an edit that is taken back.
     pub(super) fn drop_after_edits(&mut self, edits: usize) {
         self.list.retain(|key| key.edits <= edits);
+        self.count_bytes();
     }
 
     pub(super) fn append(&mut self, rest: Vec<Keyframe>) {
         self.list.extend(rest);
+        self.count_bytes();
     }
 
     /// Drops every second one but those after edits, the first and the last; whether any was.
@@ -103,12 +110,17 @@ impl Keyframes {
             index += 1;
             index % 2 == 1 || index > last || key.after_edit
         });
+        self.count_bytes();
         self.list.len() < before
+    }
+
+    fn count_bytes(&mut self) {
+        self.bytes = self.list.iter().map(|key| key.bytes).sum();
     }
 
     /// Bytes that they take, about.
     pub(super) fn bytes(&self) -> usize {
-        self.list.iter().chain(self.head.as_deref()).map(|key| key.bytes).sum()
+        self.bytes + self.head.as_ref().map_or(0, |head| head.bytes)
     }
 
     #[cfg(test)]

@@ -180,7 +180,7 @@ impl RunRecorder {
             }
             RunCommand::Step { dt, count } if count > 0 => self.task = Task::Steps { dt, left: count },
             RunCommand::NextEvent { dt, of } => self.task = Task::ToEvent { dt, of, empty: 0 },
-            RunCommand::RunUntil { dt, goal } => self.task = Task::Until { dt, goal },
+            RunCommand::RunUntil { dt, goal } => self.task = Task::Until { dt, goal, waited: 0 },
             RunCommand::FinishStep => self.task = Task::Finish,
             RunCommand::Play { dt, speed, range } if speed.is_finite() && speed != 0.0 => {
                 self.task = Task::Play(Play::new(dt, speed, range));
@@ -190,7 +190,7 @@ impl RunRecorder {
                 run.message = Some("that is not a time".into());
             }
             RunCommand::Seek { dt, time } if !run.seek(time) => {
-                self.task = Task::Until { dt, goal: Goal::Time(time) };
+                self.task = Task::Until { dt, goal: Goal::Time(time), waited: 0 };
             }
             RunCommand::StepBack => drop(run.step_back()),
             RunCommand::EventBack { of } => run.event_back(of),

@@ -22,6 +22,8 @@ pub(super) enum Task {
     Until {
         dt: f64,
         goal: Goal,
+        /// Δt in which the goal came no nearer.
+        waited: u32,
     },
     Finish,
     Play(Play),
@@ -49,8 +51,8 @@ const MOST_DUE: f64 = 0.1;
 /// Wall-clock seconds between two pictures: a Δt that takes longer to play is gone through in between.
 const PICTURE: f64 = 1.0 / 60.0;
 
-/// Δt without an event after which "next event" stops looking, so that a scene in which nothing happens
-/// any more does not run for ever.
+/// Δt without an event after which "next event" stops looking, and Δt after which waiting for rest ends, so that a scene
+/// in which that never happens does not run for ever.
 const MOST_EMPTY_STEPS: u32 = 100_000;
 
 impl Task {
@@ -75,8 +77,11 @@ impl Task {
                 Slice::Done => *empty += 1,
                 Slice::Event | Slice::Stopped | Slice::Pause => {}
             },
-            Self::Until { dt, goal } => {
-                if goal.advance(run, *dt, budget) {
+            Self::Until { dt, goal, waited } => {
+                if goal.advance(run, *dt, budget, waited) {
+                    *self = Self::Idle;
+                } else if *waited >= MOST_EMPTY_STEPS {
+                    run.message = Some(format!("{} within {MOST_EMPTY_STEPS} Δt", goal.missing()));
                     *self = Self::Idle;
                 }
             }
@@ -104,8 +109,16 @@ fn is_reached(run: &Run, of: Of) -> bool {
 }
 
 impl Goal {
-    /// Goes on; whether the goal is reached.
-    fn advance(&mut self, run: &mut Run, dt: f64, budget: &mut u32) -> bool {
+    /// What has not happened where the goal is given up.
+    fn missing(self) -> &'static str {
+        match self {
+            Self::Rest => "no rest",
+            Self::Time(_) | Self::Events(_) | Self::Event(_) => "no event",
+        }
+    }
+
+    /// Goes on, and counts the Δt in `waited` that brought the goal no nearer; whether it is reached.
+    fn advance(&mut self, run: &mut Run, dt: f64, budget: &mut u32, waited: &mut u32) -> bool {
         match self {
             Self::Time(time) => {
                 let stop = Stop { at_events: false, time: *time };
@@ -115,12 +128,18 @@ impl Goal {
                 run.cursor.time >= *time
             }
             Self::Events(left) => {
-                *left -= u64::from(run.slice(dt, Stop::AT_EVENTS, budget) == Slice::Event).min(*left);
+                match run.slice(dt, Stop::AT_EVENTS, budget) {
+                    Slice::Event => (*left, *waited) = (left.saturating_sub(1), 0),
+                    slice => *waited += u32::from(slice == Slice::Done),
+                }
                 *left == 0
             }
             Self::Event(number) => {
                 if run.cursor.event < *number {
-                    run.slice(dt, Stop::AT_EVENTS, budget);
+                    match run.slice(dt, Stop::AT_EVENTS, budget) {
+                        Slice::Event => *waited = 0,
+                        slice => *waited += u32::from(slice == Slice::Done),
+                    }
                 }
                 run.cursor.event >= *number
             }
@@ -131,6 +150,7 @@ impl Goal {
                 // A look at all bodies costs: only where one may have come to rest.
                 while *budget > 0 && !run.is_faulted() {
                     let slice = run.slice(dt, Stop::AT_EVENTS, budget);
+                    *waited += u32::from(slice == Slice::Done);
                     if slice == Slice::Done || (slice == Slice::Event && ends_motion(run)) {
                         return run.is_at_rest();
                     }

@@ -157,7 +157,7 @@ fn bodies_are_picked_where_the_simulation_has_them() {
 fn marks_of_forces_come_before_bodies() {
     let scene = furnished_box();
     let input = ViewInput::new(&scene, front_camera(), viewport());
-    assert_eq!(keys(&input, DVec2::ZERO)[0], 32, "the attractor in the middle");
+    assert_eq!(keys(&input, DVec2::ZERO)[0], scene.forces[1].key.0, "the attractor in the middle");
 }
 
 #[test]
