@@ -7,7 +7,7 @@
 use glam::DVec3;
 
 use super::link::{Link, Solved};
-use super::loads::Loads;
+use super::loads::{Loads, Problem};
 use super::nearest::{nearest, nearest_from};
 
 /// Turns a motion into the nearest one that enters no surface faster than its limit.
@@ -23,6 +23,17 @@ pub(super) fn enter_none_from(
     motion: &mut [DVec3],
 ) -> Solved {
     nearest_from(loads, links, &vec![false; links.len()], inverse_mass, motion)
+}
+
+/// The same from loads alone, to fewer digits where they exceed the motion by far: the loads, or `None` where these do not
+/// tell it.
+pub(super) fn enter_none_by_loads(
+    mut loads: Loads,
+    links: &[Link],
+    inverse_mass: &[f64],
+    motion: &mut [DVec3],
+) -> Option<Vec<f64>> {
+    loads.bring_near(&Problem { links, both: &vec![false; links.len()], inverse_mass }, motion)
 }
 
 /// Turns a motion into the nearest one that neither enters nor leaves: every link is at its limit.

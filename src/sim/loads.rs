@@ -57,6 +57,14 @@ impl Loads {
         Some(Solved { multipliers: self.multipliers.clone(), sizes: at.sizes })
     }
 
+    /// The same where digits lost to loads that exceed the motion by far do no harm.
+    pub fn bring_near(&mut self, problem: &Problem<'_>, motion: &mut [DVec3]) -> Option<Vec<f64>> {
+        let mut at = self.start(problem, motion);
+        self.iterate(problem, motion, &mut at)?;
+        motion.copy_from_slice(&at.motion);
+        Some(self.multipliers.clone())
+    }
+
     /// How far the motion found is from a projection, Σ λ·(N w − limit), J for velocities: the loads enlarge what rounding
     /// leaves.
     fn defect(&self, problem: &Problem<'_>, at: &Under) -> f64 {

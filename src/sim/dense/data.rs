@@ -52,6 +52,8 @@ pub(in crate::sim) struct Member {
     /// How often its step is halved, and whether it took few sweeps.
     pub halvings: u8,
     pub is_easy: bool,
+    /// In how many steps its contacts are to be solved at once before sweeps are tried again.
+    pub tough: u8,
     /// Whether another dynamic body is listed with it.
     pub has_company: bool,
     /// Whether its segment is one of a group, which is a step of the leapfrog.
@@ -100,6 +102,8 @@ pub(super) struct Work {
     /// s.
     pub end: f64,
     pub halvings: u8,
+    /// Whether sweeps do not get there, so that it is solved at once.
+    pub is_tough: bool,
     /// Whether it lies still and comes to rest instead.
     pub is_still: bool,
 }

@@ -1,17 +1,18 @@
-//! The contacts of a small component solved at once, where sweeps do not get there: a light body under or between heavy
-//! ones takes some M/m of them.
+//! The contacts of a component solved at once, where sweeps do not get there: a light body under or between heavy ones
+//! takes some M/m of them.
 
 use glam::DVec3;
 
 use super::rub::Rubbing;
 use super::stepped::{Contact, Moving, Stepped, velocity};
 use super::sweep::{Solution, System, free, gains_grossly};
-use super::tolerance::MOST_SOLVED_AT_ONCE;
-use crate::sim::constraint::enter_none;
+use super::tolerance::{MOST_SEARCHED, MOST_SOLVED_AT_ONCE};
+use crate::sim::constraint::{enter_none, enter_none_by_loads};
 use crate::sim::link::Link;
+use crate::sim::loads::Loads;
 
-/// Solves the contacts of a component in a step of length h, as [`super::sweep::solve`] does; `None` where there are too
-/// many.
+/// Solves the contacts of a component in a step of length h, as [`super::sweep::solve`] does, and starts from the impulses
+/// that they have; `None` where there are too many.
 pub(super) fn solve_at_once(
     system: &mut System,
     contacts: &mut Vec<Contact>,
@@ -25,9 +26,8 @@ pub(super) fn solve_at_once(
     let inverse_mass: Vec<f64> = bodies.iter().map(|body| body.inverse_mass).collect();
     let undisturbed: Vec<Moving> = bodies.iter().map(|body| free(body, h)).collect();
     loop {
-        let links: Vec<Link> = contacts.iter().map(|contact| link(contact, bodies.len())).collect();
         let mut motion: Vec<DVec3> = undisturbed.iter().map(velocity).collect();
-        let impulses = enter_none(&links, &inverse_mass, &mut motion).multipliers;
+        let impulses = impulses(contacts, &inverse_mass, &mut motion)?;
         for (contact, impulse) in contacts.iter_mut().zip(&impulses) {
             contact.impulse = *impulse;
         }
@@ -42,6 +42,17 @@ pub(super) fn solve_at_once(
         let gains = gains_grossly(loss, bodies);
         return Some(Solution { loss, sweeps: 0, has_converged: !sinks && !gains, gains });
     }
+}
+
+/// The impulses that turn the undisturbed motion into an allowed one: by loads from those that the contacts have, or else,
+/// where there are few, by search.
+fn impulses(contacts: &[Contact], inverse_mass: &[f64], motion: &mut [DVec3]) -> Option<Vec<f64>> {
+    let links: Vec<Link> = contacts.iter().map(|contact| link(contact, motion.len())).collect();
+    let known: Vec<f64> = contacts.iter().map(|contact| contact.impulse).collect();
+    let found = enter_none_by_loads(Loads::from(&known), &links, inverse_mass, motion);
+    found.or_else(|| {
+        (links.len() <= MOST_SEARCHED).then(|| enter_none(&links, inverse_mass, motion).multipliers)
+    })
 }
 
 /// A contact as a bound on velocities.

@@ -13,7 +13,8 @@ use super::solve::{Landing, find_contacts, solve_contacts};
 use super::start::read_bodies;
 use super::stepped::{Contact, FIXED, velocity};
 use super::tolerance::{
-    MOST_ATTEMPTS, MOST_HALVINGS, MOST_HALVINGS_TO_CONVERGE, MOST_SWEEPS, TURN_IN_A_STEP, WAY_OF_RADIUS,
+    MOST_ATTEMPTS, MOST_HALVINGS, MOST_HALVINGS_TO_CONVERGE, MOST_SWEEPS, TOUGH_STEPS, TURN_IN_A_STEP,
+    WAY_OF_RADIUS,
 };
 use crate::sim::account::angular;
 use crate::sim::body::BodyId;
@@ -275,6 +276,7 @@ fn reached_frozen(
 /// Solves the step of a component, halved as often as it takes.
 fn propose(model: &Model, state: &mut State, dense: &Dense, component: &mut Component, time: f64) {
     component.work.halvings = halvings(model, dense, component);
+    component.work.is_tough = tough_steps(dense, component) > 0;
     loop {
         let work = &mut component.work;
         work.end = step_end(model.dense_step, work.halvings, time);
@@ -299,6 +301,11 @@ fn propose(model: &Model, state: &mut State, dense: &Dense, component: &mut Comp
         state.counters.halvings += 1;
         work.halvings += 1;
     }
+}
+
+/// Steps in which a component is to be solved at once yet.
+fn tough_steps(dense: &Dense, component: &Component) -> u8 {
+    component.slots.iter().map(|slot| dense.members[*slot as usize].tough).max().unwrap_or(0)
 }
 
 /// How often the step of a component must be halved at least: as often as the last, or once less after an easy one,
@@ -350,9 +357,14 @@ fn carry_out(
     state.counters.contacts += work.contacts.len() as u64;
     state.account.impact_losses.add(work.solution.loss);
     let is_easy = work.solution.sweeps < MOST_SWEEPS / 4;
+    let tough = match tough_steps(dense, component) {
+        0 if work.is_tough => TOUGH_STEPS,
+        left => left.saturating_sub(1),
+    };
     for slot in slots {
         let member = &mut dense.members[*slot as usize];
         (member.halvings, member.is_easy, member.is_stepped) = (work.halvings, is_easy, true);
+        member.tough = tough;
         member.idle = member.idle.saturating_add(1);
     }
     let h = work.end - time;

@@ -48,8 +48,8 @@ pub(super) fn solve_contacts(
     h: f64,
     landing: Landing,
 ) {
-    let Component { near, work: Work { bodies, contacts, waiting, system, rubbing, solution, .. }, .. } =
-        component;
+    let Component { near, work, .. } = component;
+    let Work { bodies, contacts, waiting, system, rubbing, solution, is_tough, .. } = work;
     let land = |contact: Contact| match landing {
         Landing::OrRebound => contact,
         Landing::Only => Contact { bound: contact.bound.min(0.0), ..contact },
@@ -68,6 +68,14 @@ pub(super) fn solve_contacts(
         });
     };
     let law = |contact: &Contact| law_of(model, dense, contact);
+    if *is_tough
+        && rubbing.is_empty()
+        && let Some(found) = solve_at_once(system, contacts, bodies, h, &mut meet)
+        && found.has_converged
+    {
+        *solution = found;
+        return;
+    }
     *solution = solve(system, contacts, bodies, h, (rubbing, &law), &mut meet);
     let is_deep = |contact: &Contact| -contact.gap > BUDGET * contact.radius;
     // The friction of a step is found by sweeps alone.
@@ -75,6 +83,7 @@ pub(super) fn solve_contacts(
         && (!solution.has_converged || contacts.iter().any(is_deep))
         && let Some(found) = solve_at_once(system, contacts, bodies, h, &mut meet)
     {
+        *is_tough |= found.has_converged;
         *solution = Solution { sweeps: solution.sweeps, ..found };
     }
 }

@@ -71,11 +71,17 @@ pub(super) const FINEST_OF_DEEP: f64 = 0.1;
 /// Sweeps before a step is halved.
 pub(super) const MOST_SWEEPS: usize = 400;
 
-/// Up to so many contacts of a step that does not converge, or in which one has used up its budget, are solved at once, which
-/// costs some n³:
-/// fewer leave what eight balls in a pit touch to sweeps, in which a light ball between heavy ones enters them; more take
-/// longer than shorter steps.
-pub(super) const MOST_SOLVED_AT_ONCE: usize = 48;
+/// Up to so many contacts of a step that does not converge, or in which one has used up its budget, are solved at once from
+/// their loads, which costs some n³ where all hang together: more take longer than shorter steps.
+pub(super) const MOST_SOLVED_AT_ONCE: usize = 256;
+
+/// Up to so many are searched for where loads do not tell them, which costs ten times as much: fewer leave what eight balls
+/// in a pit touch to sweeps, in which a light ball between heavy ones enters them.
+pub(super) const MOST_SEARCHED: usize = 48;
+
+/// Steps in which a component is solved at once before sweeps are tried again, after they did not get there: fewer sweep in
+/// vain, more solve at once what a few sweeps would.
+pub(super) const TOUGH_STEPS: u8 = 32;
 
 /// More sweeps follow while a component gains more than this part of m·g·r of its smallest body, but no more than so
 /// many.
