@@ -114,12 +114,13 @@ pub(in crate::sim) const SMALLEST_CROWD: usize = 4;
 /// followed through them all; among more there is no end to it.
 pub(super) const SMALLEST_ELASTIC_CROWD: usize = 9;
 
-/// What it costs to go on from impact to impact grows with the bodies too: larger components are stepped from so many
-/// impacts times bodies on, those of a thousand from some two impacts a step.
-pub(super) const CROWDED: f64 = 8192.0;
+/// What it costs to go on from impact to impact grows with the bodies too, and steps cost what they cost: larger components
+/// are stepped from so many impacts times bodies on, those of three hundred from an impact a step. That is where their events
+/// take longer than real time; four times as many, and they play at a third of it until they enter.
+pub(super) const CROWDED: f64 = 2048.0;
 
 /// Nobody looks for a crowd around a body that was struck less: in a gas that would be in vain each time.
-pub(super) const LEAST_STRUCK: f64 = 8.0;
+pub(super) const LEAST_STRUCK: f64 = 4.0;
 
 /// Lossy impacts of one body at one instant from which its component is stepped, whatever the others say: no endless
 /// series of impacts without time can outlive it.
