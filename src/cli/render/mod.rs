@@ -1,47 +1,68 @@
-//! `polyscene render`: a picture of a scene without a window, a display or a GPU.
+//! `polyscene render`: pictures of a scene without a window, a display or a GPU.
+
+mod names;
+mod picture;
+mod studio;
+mod times;
 
 use std::io::IsTerminal as _;
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::atomic::Ordering;
 
 use clap::{Args, ValueEnum};
+use indicatif::{ProgressBar, ProgressStyle};
 
+use self::names::Names;
+use self::studio::Studio;
 use super::limits::LimitArgs;
 use super::output::{self, is_stdout};
-use super::samples::SampleGrid;
-use super::{CliError, input, method, number};
-use crate::record::{Exceeded, Frame, InlineRunner, RunCommand, RunState, Runner as _};
-use crate::render::{Offscreen, RenderError, Tile, png, render_picture, write_png};
-use crate::scene::{Scene, check_writable, shown_path};
-use crate::sim::{Fault, Method};
-use crate::view::{
-    Align, Camera, DrawList, Label, OVERLAYS, OverlaySet, Theme, VIEWS, ViewInput, ViewPreset, Viewport,
-    build_draw_list, scene_bounds,
-};
+use super::{CliError, input, interrupt, method, number};
+use crate::sim::Method;
+use crate::view::{OVERLAYS, OverlaySet, Theme};
 
-/// Draw a scene into a PNG file
+/// Draw a scene into a PNG file, or its motion into many
 ///
 /// Needs neither a display nor a GPU: OpenGL runs in software through EGL. Shows the start, or the state
-/// at `--at` with the contacts of the last Δt. A simulation that stops before `--at` on a numerical fault
+/// at `--at` with the contacts of the last Δt. With `--until` (or `--to`) it draws `--fps` pictures for each second
+/// of model time into numbered files. A simulation that stops before `--at` on a numerical fault
 /// gives no picture, tells why, and ends with exit code 3; one that --max-events or --max-wall stops gives that
-/// of the time reached.
+/// of the time reached. Of a sequence the pictures before that are there.
 #[derive(Debug, Args)]
 #[command(after_help = after_help())]
 pub struct RenderArgs {
     /// Scene file; `-` is standard input
     scene: PathBuf,
 
-    /// Picture to write; `-` is standard output
+    /// Picture to write; `-` is standard output. Of a sequence a folder, or a name with a place for the number of the
+    /// picture such as frame-%05d.png, counted from 0
     #[arg(short, long, value_name = "OUT.png")]
     out: PathBuf,
 
+    /// Let --out replace a file other than the scene
+    #[arg(long)]
+    force: bool,
+
     /// Model time to show, in seconds from 0 to 1e9
-    #[arg(long, value_name = "S", value_parser = moment, allow_negative_numbers = true, default_value = "0")]
+    #[arg(long, value_name = "S", value_parser = moment, allow_negative_numbers = true, default_value = "0",
+          conflicts_with_all = ["from", "until", "fps"])]
     at: f64,
 
-    /// Δt before `--at` whose contacts are shown, in seconds; fractions such as 1/60 are fine
-    #[arg(long, value_name = "S", value_parser = number::seconds, allow_negative_numbers = true, default_value = "1/60")]
-    dt: f64,
+    /// Draw a sequence up to this time, in seconds
+    #[arg(long, visible_alias = "to", value_name = "S", value_parser = number::seconds, allow_negative_numbers = true)]
+    until: Option<f64>,
+
+    /// When the sequence begins, in seconds; 0 unless given
+    #[arg(long, value_name = "S", value_parser = moment, allow_negative_numbers = true, requires = "until")]
+    from: Option<f64>,
+
+    /// Pictures of the sequence for each second of model time; 30 unless given
+    #[arg(long, value_name = "N", allow_negative_numbers = true, requires = "until")]
+    fps: Option<f64>,
+
+    /// Δt before the picture whose contacts are shown, in seconds; fractions such as 1/60 are fine. 1/60 unless given,
+    /// in a sequence that does not step by it the time since the last picture
+    #[arg(long, value_name = "S", value_parser = number::seconds, allow_negative_numbers = true)]
+    dt: Option<f64>,
 
     /// How to step; the methods other than exact do it in steps of --dt
     #[arg(long, default_value = Method::Exact.name(), value_parser = method::parser())]
@@ -86,21 +107,13 @@ enum Colors {
     Light,
 }
 
-/// Pixels between the views of a quad picture.
-const GAP: u32 = 2;
-
 pub(super) fn render(args: &RenderArgs) -> Result<(), CliError> {
-    let unwritable = |error| CliError::unwritable(&args.out, &error);
-    if output::overwrites(&args.out, &args.scene) {
-        return Err(CliError::Usage(format!("--out would overwrite the scene {}", shown_path(&args.out))));
+    let times = times::of(args)?;
+    let paths = paths(args, times.len())?;
+    for path in &paths {
+        output::refuse_bad("--out", path, ("the scene", &args.scene), args.force)?;
     }
-    if is_stdout(&args.out) && std::io::stdout().is_terminal() {
-        return Err(CliError::Usage(
-            "--out -: a terminal cannot show a picture; give a file or a pipe".into(),
-        ));
-    }
-    let steps = steps(args)?;
-    let watchdog = args.limits.watchdog();
+    let mut watchdog = args.limits.watchdog();
     let name = input::display_name(&args.scene);
     let examined = input::open(&args.scene, args.method)?;
     for line in examined.lines(&name) {
@@ -109,30 +122,58 @@ pub(super) fn render(args: &RenderArgs) -> Result<(), CliError> {
     let (Some(scene), Some(_)) = (examined.document.scene(), examined.simulation) else {
         return Err(CliError::Scene(format!("{name} cannot be drawn: it has errors")));
     };
-    if !is_stdout(&args.out) {
-        check_writable(&args.out).map_err(unwritable)?;
+    let mut studio = Studio::new(args, scene);
+    let (bar, stop) = (bar(args, times.len()), args.until.map(|_| interrupt::on_interrupt()));
+    for (nth, (time, path)) in times.iter().zip(&paths).enumerate() {
+        let steps = match nth.checked_sub(1).and_then(|before| times.get(before)) {
+            None => times::first(args, *time)?,
+            Some(before) => times::next(args, *before, *time),
+        };
+        let exceeded = studio.go_on(steps)?;
+        if exceeded.is_some() || nth + 1 == times.len() {
+            // What is left is drawing, which ends.
+            watchdog.take();
+        }
+        let time = studio.frame.time;
+        let stopped = |why| CliError::Stopped { time, why };
+        match (exceeded, args.until) {
+            (Some(why), Some(_)) => return Err(stopped(why)),
+            (Some(why), None) => return studio.draw(path).and(Err(stopped(why))),
+            (None, _) if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) => {
+                return Err(CliError::Interrupted { time });
+            }
+            (None, _) => studio.draw(path)?,
+        }
+        bar.inc(1);
     }
-    let (frame, exceeded) = frame_after(&steps, scene, args).map_err(CliError::Fault)?;
-    drop(watchdog);
-
-    let mut offscreen = Offscreen::new().map_err(|error| unusable(&error))?;
-    let tiles = tiles(args, scene, &frame);
-    for note in tiles.iter().flat_map(|tile| &tile.list.notes) {
-        super::say(note);
-    }
-    let [r, g, b, _] = args.theme().palette().map_box.0;
-    let picture = render_picture(&mut offscreen, args.size, [r, g, b, 255], &tiles)
-        .map_err(|error| unusable(&error))?;
-    if is_stdout(&args.out) {
-        output::print(&png(picture.as_raw(), args.size).map_err(unwritable)?)?;
-    } else {
-        write_png(&args.out, picture.as_raw(), args.size).map_err(unwritable)?;
-    }
-    exceeded.map_or(Ok(()), |why| Err(CliError::Stopped { time: frame.time, why }))
+    bar.finish_and_clear();
+    Ok(())
 }
 
-fn unusable(error: &RenderError) -> CliError {
-    CliError::Usage(error.to_string())
+/// A file for each picture.
+fn paths(args: &RenderArgs, count: usize) -> Result<Vec<PathBuf>, CliError> {
+    let goes_to_stdout = is_stdout(&args.out);
+    if args.until.is_some() {
+        if goes_to_stdout {
+            return Err(CliError::Usage("--out -: several pictures need a folder or numbered names".into()));
+        }
+        let names = Names::of(&args.out).map_err(|refusal| CliError::Usage(format!("--out: {refusal}")))?;
+        return Ok((0..count).map(|number| names.at(number)).collect());
+    }
+    if goes_to_stdout && std::io::stdout().is_terminal() {
+        let message = "--out -: a terminal cannot show a picture; give a file or a pipe";
+        return Err(CliError::Usage(message.into()));
+    }
+    Ok(vec![args.out.clone()])
+}
+
+/// Of a sequence, on a terminal.
+fn bar(args: &RenderArgs, count: usize) -> ProgressBar {
+    if args.until.is_none() {
+        return ProgressBar::hidden();
+    }
+    let style = ProgressStyle::with_template("{bar:32} {pos} of {len} pictures, about {eta} left");
+    ProgressBar::new(count as u64).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
 
 impl RenderArgs {
@@ -141,89 +182,6 @@ impl RenderArgs {
             Colors::Dark => Theme::Dark,
             Colors::Light => Theme::Light,
         }
-    }
-}
-
-/// The views of the picture, each at its place.
-fn tiles(args: &RenderArgs, scene: &Scene, frame: &Frame) -> Vec<Tile> {
-    let [width, height] = args.size;
-    if args.view == View::Quad {
-        let half = |side: u32| ((side.saturating_sub(GAP)) / 2).max(1);
-        let size = [half(width), half(height)];
-        return VIEWS
-            .iter()
-            .zip([[0, 0], [1, 0], [0, 1], [1, 1]])
-            .map(|(preset, [column, row])| Tile {
-                list: list(args, preset, scene, frame, size),
-                x: column * (width - size[0]),
-                y: row * (height - size[1]),
-            })
-            .collect();
-    }
-    let one = VIEWS.iter().find(|preset| View::from_str(preset.id, false) == Ok(args.view));
-    one.map(|preset| Tile { list: list(args, preset, scene, frame, args.size), x: 0, y: 0 })
-        .into_iter()
-        .collect()
-}
-
-fn list(args: &RenderArgs, preset: &ViewPreset, scene: &Scene, frame: &Frame, size: [u32; 2]) -> DrawList {
-    let [width, height] = size.map(|side| f64::from(side) / args.zoom);
-    let viewport = Viewport::new(width, height, args.zoom);
-    let theme = args.theme();
-    let mut input = ViewInput::new(scene, Camera::default(), viewport);
-    // Around the start, so that pictures of different times can be laid over each other.
-    input.camera = preset.camera(scene_bounds(&input, None), viewport.aspect());
-    input.frame = Some(frame);
-    input.overlays = args.overlays.unwrap_or_else(|| preset.overlay_set());
-    input.theme = theme;
-    let mut list = build_draw_list(&input);
-    list.labels.push(Label {
-        position: glam::Vec2::new(10.0, 7.0),
-        text: format!("{} · t = {} s", preset.label, crate::view::number(frame.time, 6)),
-        color: theme.palette().text,
-        size: 13.0,
-        align: Align::LeftTop,
-        back: theme.palette().label_back,
-    });
-    list
-}
-
-/// The commands that go to `--at`, the last of them the Δt whose contacts are shown.
-fn steps(args: &RenderArgs) -> Result<Vec<RunCommand>, CliError> {
-    let RenderArgs { at, dt, method, .. } = *args;
-    let last = dt.min(at);
-    let mut parts = vec![(at - last, 1), (last, 1)];
-    if method.depends_on_dt() && at > dt {
-        let grid = SampleGrid::new(Some(dt), at).map_err(CliError::Usage)?;
-        let whole = u32::try_from(grid.steps - 1).unwrap_or(u32::MAX);
-        parts = vec![(dt, whole), (at - grid.time(grid.steps - 1), 1)];
-    }
-    let steps = parts.into_iter().filter(|(dt, count)| *dt > 0.0 && *count > 0);
-    Ok(steps.map(|(dt, count)| RunCommand::Step { dt, count }).collect())
-}
-
-/// The simulation after the steps, or where a limit ended it.
-fn frame_after(
-    steps: &[RunCommand],
-    scene: &Scene,
-    args: &RenderArgs,
-) -> Result<(Arc<Frame>, Option<Exceeded>), Fault> {
-    let mut runner = InlineRunner::limited(args.limits.limits());
-    runner.send(RunCommand::Method(args.method));
-    runner.send(RunCommand::Load(Arc::new(scene.clone())));
-    for step in steps {
-        if runner.exceeded().is_none() {
-            runner.send(step.clone());
-        }
-    }
-    let frame = runner.frame();
-    match (frame.state, &frame.fault) {
-        // The message begins with the time, which a fault tells of itself.
-        (RunState::Faulted, Some(text)) => {
-            let message = text.split_once(": ").map_or(text.as_str(), |(_, message)| message);
-            Err(Fault { time: frame.time, message: message.to_owned(), key: None })
-        }
-        _ => Ok((frame, runner.exceeded())),
     }
 }
 
@@ -272,7 +230,8 @@ fn overlay_ids() -> String {
 fn after_help() -> String {
     let mut help = String::from(
         "Examples:\n  polyscene render scenes/orbit.xml -o orbit.png\n  \
-         polyscene render scenes/thesis-appendix-2.xml -o box.png --at 2 --view top --overlays map,grid,tiles\n\n\
+         polyscene render scenes/thesis-appendix-2.xml -o box.png --at 2 --view top --overlays map,grid,tiles\n  \
+         polyscene render scenes/bounce.xml -o frame-%05d.png --until 5 --fps 30 --view perspective\n\n\
          Overlays:\n",
     );
     for overlay in OVERLAYS {
