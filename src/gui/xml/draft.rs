@@ -131,17 +131,13 @@ impl Draft {
             ui.fonts_mut(|fonts| fonts.layout_job(job))
         };
         let margin = egui::Margin { left: gutter.min(120.0) as i8, right: 4, top: 2, bottom: 2 };
-        let mut field = TextEdit::multiline(&mut self.text)
+        let field = TextEdit::multiline(&mut self.text)
             .id(id)
             .code_editor()
-            .margin(margin)
             .desired_width(f32::INFINITY)
             .desired_rows(4)
             .layouter(&mut layouter)
-            .frame(egui::Frame::NONE);
-        if self.jump.is_some() {
-            field = field.lock_focus(true);
-        }
+            .frame(egui::Frame::NONE.inner_margin(margin));
         let output = field.show(ui);
         let response = &output.response.response;
         response.widget_info(|| {
