@@ -38,4 +38,4 @@ picture=${CARGO_TARGET_DIR:-target}/$(basename "$scene" .xml).png
 echo
 "$polyscene" run "$scene" --dt 1/60 --until 10
 echo
-"$polyscene" render "$scene" --out "$picture" && echo "The picture is $picture"
+"$polyscene" render "$scene" --force --out "$picture" && echo "The picture is $picture"

@@ -44,5 +44,5 @@ window tiles gas 'dt:1/10,step_forward*20,view_perspective,overlay:tiles,maximiz
 declare -A moment=([bullet]=0.0101 [cradle]=1 [orbit]=5)
 for scene in scenes/*.xml; do
   name=$(basename "$scene" .xml)
-  "$polyscene" render "$scene" --at "${moment[$name]:-2}" --size 800x500 --out "screenshots/scenes/$name.png"
+  "$polyscene" render "$scene" --at "${moment[$name]:-2}" --size 800x500 --force --out "screenshots/scenes/$name.png"
 done

@@ -103,18 +103,19 @@ def export(program, scene, to, path, *options):
 
 
 # Scenes whose motion is looked at too, and how much of it.
-MOVING = {"bounce", "cradle", "drag", "bin"}
+MOVING = {"bounce", "cradle", "drag", "bin", "billiards", "bowling"}
 MOTION = ["--until", "1.05", "--fps", "10"]
 
 
 def motion(program, scene):
-    """Places of the moving bodies at the frames, y up: label to a list of (time, place)."""
+    """How the moving bodies are at the frames, y up: label to a list of (time, place, orientation as a matrix or None)."""
     command = [program, "export", str(scene), "--to", "csv", *MOTION]
     lines = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
     tracks = {}
     for row in csv.DictReader(lines):
         place = [float(row[axis]) for axis in ("x_m", "y_m", "z_m")]
-        tracks.setdefault(row["label"], []).append((float(row["t_s"]), place))
+        turn = of_quaternion(*(float(row[part]) for part in ("qw", "qx", "qy", "qz"))) if row["qw"] else None
+        tracks.setdefault(row["label"], []).append((float(row["t_s"]), place, turn))
     return tracks
 
 
@@ -297,11 +298,15 @@ def usd_motion(program, work, scene):
         fail(f"{scene}: {len(moving)} bodies move instead of {len(tracks)}")
     for prim in moving:
         track = tracks[prim.GetCustomDataByKey("UserID")]
-        for time, place in track:
+        for time, place, turn in track:
             code = Usd.TimeCode(time * stage.GetTimeCodesPerSecond())
             world = UsdGeom.Xformable(prim).ComputeLocalToWorldTransform(code)
             if far(list(world.ExtractTranslation()), place):
                 fail(f"{scene}: {prim.GetPath()} is elsewhere at {time} s")
+            # Rows of its matrices are columns here.
+            turned = world.ExtractRotationMatrix().GetTranspose()
+            if turn and far_matrix([list(turned.GetRow(at)) for at in range(3)], turn):
+                fail(f"{scene}: {prim.GetPath()} is turned otherwise at {time} s")
         if not UsdPhysics.RigidBodyAPI(prim).GetKinematicEnabledAttr().Get():
             fail(f"{scene}: {prim.GetPath()} would be moved by an engine")
 
@@ -352,7 +357,7 @@ def check_gltf(program, work, scenes):
 
 
 def gltf_motion(program, scene, data):
-    """The animation's keys against the places at the frames, to the digits of a 32-bit number."""
+    """The animation's keys against places and orientations at the frames, to the digits of a 32-bit number."""
     length = int.from_bytes(data[12:16], "little")
     root, buffer = json.loads(data[20 : 20 + length]), data[20 + length + 8 :]
 
@@ -364,17 +369,21 @@ def gltf_motion(program, scene, data):
 
     (animation,) = root["animations"]
     tracks = motion(program, scene)
-    if len(animation["channels"]) != len(tracks):
-        fail(f"{scene}: {len(animation['channels'])} channels instead of {len(tracks)}")
+    expected = sum(2 if track[0][2] else 1 for track in tracks.values())
+    if len(animation["channels"]) != expected:
+        fail(f"{scene}: {len(animation['channels'])} channels instead of {expected}")
     for channel in animation["channels"]:
         sampler = animation["samplers"][channel["sampler"]]
         node = root["nodes"][channel["target"]["node"]]
         track = tracks[str(node["extras"]["UserID"])]
-        times, places = floats(sampler["input"], 1), floats(sampler["output"], 3)
+        turns = channel["target"]["path"] == "rotation"
+        times, values = floats(sampler["input"], 1), floats(sampler["output"], 4 if turns else 3)
         keys = [key for (key,) in times]
-        for time, place in track:
+        for time, place, turn in track:
             nearest = min(range(len(keys)), key=lambda at: abs(keys[at] - time))
-            if abs(keys[nearest] - time) > 1e-6 or far(list(places[nearest]), place):
+            value = list(values[nearest])
+            is_off = far_matrix(of_quaternion(value[3], *value[:3]), turn) if turns else far(value, place)
+            if abs(keys[nearest] - time) > 1e-6 or is_off:
                 fail(f"{scene}: {node['name']} is elsewhere at {time} s")
 
 

@@ -80,7 +80,7 @@ fn formats() -> PossibleValuesParser {
 pub(super) fn export(args: &ExportArgs) -> Result<(), CliError> {
     let format = FORMATS.iter().find(|format| format.id == args.to);
     let format = format.ok_or_else(|| CliError::Usage(format!("there is no format {}", args.to)))?;
-    output::refuse_bad(&args.output, ("the scene", &args.scene), args.force)?;
+    output::refuse_bad("--output", &args.output, ("the scene", &args.scene), args.force)?;
     refuse_terminal(args, format)?;
     let name = input::display_name(&args.scene);
     let when = args.when()?;

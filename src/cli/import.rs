@@ -39,7 +39,7 @@ pub struct ImportArgs {
 }
 
 pub(super) fn import(args: &ImportArgs) -> Result<(), CliError> {
-    output::refuse_bad(&args.output, ("the file read,", &args.file), args.force)?;
+    output::refuse_bad("--output", &args.output, ("the file read,", &args.file), args.force)?;
     let name = input::display_name(&args.file);
     let document = input::read(&args.file)?;
     let Imported { document, report, problems } = import::import(&document, args.leave_out);

@@ -95,16 +95,21 @@ pub fn print(bytes: &[u8]) -> Result<(), CliError> {
     sink.flush()
 }
 
-/// Before the work: refuses a place that cannot be written, that is the input itself (`what` says what that is), or unless
-/// `force` one that holds something.
-pub fn refuse_bad(output: &Path, (what, input): (&str, &Path), force: bool) -> Result<(), CliError> {
+/// Before the work: refuses a place, given by an option, that cannot be written, that is the input itself (`what` says what
+/// that is), or unless `force` one that holds something.
+pub fn refuse_bad(
+    option: &str,
+    output: &Path,
+    (what, input): (&str, &Path),
+    force: bool,
+) -> Result<(), CliError> {
     let name = shown_path(output);
     if overwrites(output, input) {
-        return Err(CliError::Usage(format!("--output would overwrite {what} {name}")));
+        return Err(CliError::Usage(format!("{option} would overwrite {what} {name}")));
     }
     if !force && holds_something(output) {
         return Err(CliError::Usage(format!(
-            "--output would overwrite {name}: give another name, or --force"
+            "{option} would overwrite {name}: give another name, or --force"
         )));
     }
     if is_stdout(output) {

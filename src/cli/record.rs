@@ -47,7 +47,7 @@ pub struct RecordArgs {
 }
 
 pub(super) fn record(args: &RecordArgs) -> Result<(), CliError> {
-    output::refuse_bad(&args.output, ("the scene", &args.scene), args.force)?;
+    output::refuse_bad("--output", &args.output, ("the scene", &args.scene), args.force)?;
     let name = input::display_name(&args.scene);
     let examined = input::open(&args.scene, args.method)?;
     for line in examined.lines(&name) {

@@ -17,6 +17,8 @@ pub enum Action {
         edit: Edit,
         gesture: Option<Gesture>,
     },
+    /// The text of the whole file, edited by hand.
+    ReplaceText(String),
     /// The drag was dropped, the text field left.
     EndGesture,
     /// Escape during a drag: the document is again as it was before.

@@ -20,6 +20,7 @@ impl Session {
         match action {
             Action::Command(command) => return self.execute(command),
             Action::Edit { edit, gesture } => return self.edit(&edit, gesture),
+            Action::ReplaceText(text) => return self.replace_text(&text),
             Action::EndGesture => self.settle(),
             Action::AbandonGesture => self.abandon_gesture(),
             Action::Select(keys) => self.selection.set(&keys),

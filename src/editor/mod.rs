@@ -47,6 +47,7 @@ mod sync;
 mod talk;
 mod text;
 mod text_diff;
+mod text_edit;
 mod travel;
 mod trouble_list;
 

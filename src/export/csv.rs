@@ -79,22 +79,29 @@ fn bodies(source: &Source<'_>) -> String {
     lines.collect()
 }
 
+/// The quaternion turns the body's axes to where they are; it and the angular velocity are empty where nothing rubs.
+const MOTION_HEAD: &str = "t_s,label,name,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s,qx,qy,qz,qw,\
+                           wx_rad_per_s,wy_rad_per_s,wz_rad_per_s\r\n";
+
+/// Columns of it with numbers of a body.
+const MOTION_NUMBERS: usize = 13;
+
 /// One row for each moving body at each frame, frame by frame.
 fn motion_of(source: &Source<'_>, motion: &Animation) -> String {
-    let mut text = "t_s,label,name,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s\r\n".to_owned();
+    let mut text = MOTION_HEAD.to_owned();
     let named = |body: &Body| format!("{},{}", body.label, self::text(body.name.as_deref()));
     let tracks = source.scene.bodies.iter().filter_map(|body| Some((named(body), motion.of(body.key)?)));
     let tracks: Vec<_> = tracks.collect();
     for (frame, time) in motion.times.iter().enumerate() {
         let time = number(*time);
         for (name, track) in &tracks {
-            let Some(Sample { position, velocity }) = track.get(frame) else { continue };
-            let numbers = [position.to_array(), velocity.to_array()]
-                .concat()
-                .iter()
-                .map(|v| number(*v))
-                .collect::<Vec<_>>();
-            text.push_str(&format!("{time},{name},{}\r\n", numbers.join(",")));
+            let Some(Sample { position, velocity, turn }) = track.get(frame) else { continue };
+            let mut numbers = [position.to_array(), velocity.to_array()].concat();
+            numbers.extend(turn.iter().flat_map(|turn| turn.orientation.to_array()));
+            numbers.extend(turn.iter().flat_map(|turn| turn.spin.to_array()));
+            let mut cells: Vec<_> = numbers.into_iter().map(number).collect();
+            cells.resize(MOTION_NUMBERS, String::new());
+            text.push_str(&format!("{time},{name},{}\r\n", cells.join(",")));
         }
     }
     text
@@ -131,7 +138,7 @@ fn fate(source: &Source<'_>, aspect: Aspect) -> Fate {
     match aspect {
         // The table of a motion has nothing else.
         other if source.motion.is_some() && !NO_MOTION.contains(&other) => {
-            dropped("a table of motion has places and velocities of moving bodies only")
+            dropped("a table of motion has places, orientations and velocities of moving bodies only")
         }
         Aspect::Spheres
         | Aspect::Plates

@@ -163,7 +163,8 @@ impl File {
         self.accessor(&bytes, None, about)
     }
 
-    /// One channel for each moving body; the nodes of bodies come first, in their order.
+    /// A channel for the way of each moving body, and where bodies rub one for how it turns; the nodes of bodies come first,
+    /// in their order.
     fn add_animation(&mut self, source: &Source<'_>, motion: &Animation) {
         let start = motion.frames.from;
         let shared = self.times(&motion.times.iter().map(|time| (time - start) as f32).collect::<Vec<_>>());
@@ -173,16 +174,21 @@ impl File {
             let input = if motion.is_smooth(body.key) {
                 shared
             } else {
-                self.times(&keys.iter().map(|(time, _)| (time - start) as f32).collect::<Vec<_>>())
+                self.times(&keys.iter().map(|key| (key.time - start) as f32).collect::<Vec<_>>())
             };
-            let places = keys.iter().flat_map(|(_, place)| place.as_vec3().to_array());
-            let bytes: Vec<u8> = places.flat_map(f32::to_le_bytes).collect();
-            let about = json!({ "componentType": 5126, "type": "VEC3", "count": keys.len() });
-            let output = self.accessor(&bytes, None, about);
-            channels.push(
-                json!({ "sampler": samplers.len(), "target": { "node": node, "path": "translation" } }),
-            );
-            samplers.push(json!({ "input": input, "output": output, "interpolation": "LINEAR" }));
+            let places = keys.iter().flat_map(|key| key.position.as_vec3().to_array()).collect::<Vec<_>>();
+            let turns = keys.iter().filter_map(|key| key.orientation);
+            let turns = turns.flat_map(|turn| turn.as_quat().normalize().to_array()).collect::<Vec<_>>();
+            for (path, kind, numbers) in [("translation", "VEC3", places), ("rotation", "VEC4", turns)] {
+                if numbers.is_empty() {
+                    continue;
+                }
+                let bytes: Vec<u8> = numbers.into_iter().flat_map(f32::to_le_bytes).collect();
+                let about = json!({ "componentType": 5126, "type": kind, "count": keys.len() });
+                let output = self.accessor(&bytes, None, about);
+                channels.push(json!({ "sampler": samplers.len(), "target": { "node": node, "path": path } }));
+                samplers.push(json!({ "input": input, "output": output, "interpolation": "LINEAR" }));
+            }
         }
         if !channels.is_empty() {
             self.animations.push(json!({ "name": "Motion", "samplers": samplers, "channels": channels }));
@@ -344,7 +350,7 @@ fn fate(aspect: Aspect) -> Fate {
         Aspect::Solver => dropped("settings of this program's core"),
         Aspect::Viewpoints => kept("as cameras"),
         Aspect::Motion => approximated(
-            "as an animation from 0 s on, along straight lines between the frames and the events of a body",
+            "as an animation from 0 s on, along straight lines between the frames and the events of a body, by the shorter turn",
         ),
         Aspect::Comments | Aspect::Unknown => no_meaning(),
     }

@@ -1,11 +1,11 @@
 //! A scene at another time than its start, and its motion as samples: simulated here, event by event.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use rustc_hash::FxHashMap;
 
 use super::error::ExportError;
 use crate::scene::{Document, Edit, EditError, NodeKey};
-use crate::sim::{BodyRef, Event, Progress, Simulation, as_start};
+use crate::sim::{BodyRef, Event, Progress, Rotation, Simulation, as_start};
 
 /// Which part of a run is exported. Times in s.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,17 +58,24 @@ impl Frames {
         (self.to - self.from) * self.fps
     }
 
-    /// All times, by products, so that none drifts.
+    fn whole(&self) -> f64 {
+        (self.count() + SLIVER).floor()
+    }
+
+    /// The times that are equally spaced, by products, so that none drifts.
+    pub fn even(&self) -> impl Iterator<Item = f64> {
+        let Self { from, to, fps } = *self;
+        (0..=self.whole() as u64).map(move |frame| (from + frame as f64 / fps).min(to))
+    }
+
+    /// All times.
     fn times(&self) -> Vec<f64> {
-        let count = self.count();
-        let whole = (count + SLIVER).floor();
-        let last = if count - whole > SLIVER { Some(self.to) } else { None };
-        let at = |frame: u64| (self.from + frame as f64 / self.fps).min(self.to);
-        (0..=whole as u64).map(at).chain(last).collect()
+        let last = if self.count() - self.whole() > SLIVER { Some(self.to) } else { None };
+        self.even().chain(last).collect()
     }
 }
 
-/// Places and velocities of the moving bodies at rising times.
+/// How the moving bodies move at rising times.
 #[derive(Clone, Debug)]
 pub struct Animation {
     pub frames: Frames,
@@ -81,8 +88,8 @@ pub struct Animation {
 struct Track {
     /// One for each time.
     samples: Vec<Sample>,
-    /// Places at events of this body, where its way has a corner: rising times, s, and m.
-    corners: Vec<(f64, DVec3)>,
+    /// At events of this body, where its way has a corner.
+    corners: Vec<Key>,
 }
 
 /// A body at one time: m, m/s.
@@ -90,6 +97,20 @@ struct Track {
 pub struct Sample {
     pub position: DVec3,
     pub velocity: DVec3,
+    /// `None` where nothing rubs, and nobody knows how a ball is turned.
+    pub turn: Option<Rotation>,
+}
+
+/// What a viewer draws straight lines between.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Key {
+    /// s.
+    pub time: f64,
+    /// m.
+    pub position: DVec3,
+    /// Unit quaternion, world from body; `None` where nothing rubs. Of q and −q, which are the same, the one nearer to the
+    /// key before: between the two is the shorter turn.
+    pub orientation: Option<DQuat>,
 }
 
 impl Animation {
@@ -98,27 +119,39 @@ impl Animation {
         self.tracks.get(&key).map(|track| track.samples.as_slice())
     }
 
-    /// Times and places between which straight lines are near the way of a body: the frames, and its events between
-    /// them. Times are told apart as 32-bit numbers from the first frame on.
-    pub fn keys(&self, key: NodeKey) -> Option<Vec<(f64, DVec3)>> {
+    /// Times, places and orientations between which straight lines are near the way of a body: the frames, and its events
+    /// between them. Times are told apart as 32-bit numbers from the first frame on.
+    pub fn keys(&self, key: NodeKey) -> Option<Vec<Key>> {
         let track = self.tracks.get(&key)?;
         let mut corners = track.corners.iter().copied().peekable();
         let since = |time: f64| (time - self.frames.from) as f32;
-        let mut keys: Vec<(f64, DVec3)> = Vec::with_capacity(self.times.len() + track.corners.len());
+        let mut keys: Vec<Key> = Vec::with_capacity(self.times.len() + track.corners.len());
         for (time, sample) in self.times.iter().zip(&track.samples) {
-            while let Some(corner) = corners.next_if(|(at, _)| since(*at) < since(*time)) {
-                if keys.last().is_none_or(|(last, _)| since(*last) < since(corner.0)) {
+            while let Some(corner) = corners.next_if(|corner| since(corner.time) < since(*time)) {
+                if keys.last().is_none_or(|last| since(last.time) < since(corner.time)) {
                     keys.push(corner);
                 }
             }
-            keys.push((*time, sample.position));
+            let orientation = sample.turn.map(|turn| turn.orientation);
+            keys.push(Key { time: *time, position: sample.position, orientation });
         }
+        take_shorter_turns(&mut keys);
         Some(keys)
     }
 
     /// Whether a body has no event between the frames.
     pub fn is_smooth(&self, key: NodeKey) -> bool {
         self.tracks.get(&key).is_none_or(|track| track.corners.is_empty())
+    }
+}
+
+fn take_shorter_turns(keys: &mut [Key]) {
+    let mut before: Option<DQuat> = None;
+    for orientation in keys.iter_mut().filter_map(|key| key.orientation.as_mut()) {
+        if before.is_some_and(|before| before.dot(*orientation) < 0.0) {
+            *orientation = -*orientation;
+        }
+        before = Some(*orientation);
     }
 }
 
@@ -184,13 +217,15 @@ fn record(
                 let place = index.get(&body).zip(sim.state(body));
                 if let (Some((at, state)), 1..) = (place, room) {
                     room -= 1;
-                    tracks[*at].corners.push((event.time, state.position));
+                    let orientation = state.turn.map(|turn| turn.orientation);
+                    tracks[*at].corners.push(Key { time: event.time, position: state.position, orientation });
                 }
             }
         })?;
         for (track, body) in tracks.iter_mut().zip(&bodies) {
             if let Some(state) = sim.state(*body) {
-                track.samples.push(Sample { position: state.position, velocity: state.velocity });
+                let (position, velocity, turn) = (state.position, state.velocity, state.turn);
+                track.samples.push(Sample { position, velocity, turn });
             }
         }
     }

@@ -8,7 +8,7 @@ use super::aspect::Aspect;
 use super::axes::quaternion;
 use super::error::ExportError;
 use super::format::{Exported, Format, Source};
-use super::motion::{Animation, Frames};
+use super::motion::{Animation, Frames, Key};
 use super::names;
 use super::report::{Fate, Report, approximated, dropped, kept, no_meaning, not_needed};
 use super::xml::number;
@@ -206,13 +206,19 @@ fn attributes(body: &Body, surfaces: &[Surface]) -> Vec<String> {
 fn time_samples(text: &mut String, body: &Body, motion: &Animation) {
     let Some(keys) = motion.keys(body.key) else { return };
     text.push_str("            bool physics:kinematicEnabled = 1\n");
+    let code = |key: &Key| number((key.time - motion.frames.from) * motion.frames.fps);
     text.push_str("            double3 xformOp:translate.timeSamples = {\n");
-    for (time, place) in keys {
-        let code = (time - motion.frames.from) * motion.frames.fps;
-        let place = tuple(&place.to_array());
-        let _ = writeln!(text, "                {}: {place},", number(code));
+    for key in &keys {
+        let _ = writeln!(text, "                {}: {},", code(key), tuple(&key.position.to_array()));
     }
     text.push_str("            }\n");
+    if keys.iter().any(|key| key.orientation.is_some()) {
+        text.push_str("            quatd xformOp:orient.timeSamples = {\n");
+        for (key, q) in keys.iter().filter_map(|key| Some((key, key.orientation?))) {
+            let _ = writeln!(text, "                {}: {},", code(key), tuple(&[q.w, q.x, q.y, q.z]));
+        }
+        text.push_str("            }\n");
+    }
 }
 
 fn shape(shape: &Shape) -> Vec<String> {
@@ -283,7 +289,7 @@ fn fate(aspect: Aspect) -> Fate {
         Aspect::Solver => dropped("settings of this program's core"),
         Aspect::Viewpoints => dropped("not written by this version"),
         Aspect::Motion => approximated(
-            "as time samples of kinematic bodies, along straight lines between the frames and the events of a body; time code 0 is the first",
+            "as time samples of kinematic bodies, along straight lines between the frames and the events of a body, by the shorter turn; time code 0 is the first",
         ),
         Aspect::Comments | Aspect::Unknown => no_meaning(),
     }

@@ -1,6 +1,6 @@
 //! The application: owns the session and the panels, and is the one place that carries out what they ask.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::accuracy::Accuracy;
 use super::context::{AppContext, Message, Outbox, Shown};
-use super::dialogs::{Dialogs, FileDialogs, HelpPage};
+use super::dialogs::{Dialogs, FileDialogs, FileRequest, HelpPage};
 use super::dock::{Dock, Panel};
 use super::inspector::Inspector;
 use super::launch::Script;
@@ -306,6 +306,10 @@ impl App {
             Message::Warn(text) => self.toasts.add(Notice::warning(text)),
             Message::AskExport { export, file_name } => {
                 self.dialogs.ask_for_export(ctx, export, file_name);
+            }
+            Message::AskWhere { title, file, file_name } => {
+                let directory = self.session.path().and_then(Path::parent).map(Path::to_owned);
+                self.dialogs.ask(ctx, FileRequest::Made { title, file, directory, file_name });
             }
             Message::Export(export, path) => match self.accuracy.write(export, &path) {
                 Ok(()) => self.toasts.add(Notice::info(format!("Wrote {}", shown_path(&path)))),

@@ -8,7 +8,7 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 
 use super::accuracy::Export;
-use crate::editor::{Action, Command, Session};
+use crate::editor::{Action, Command, ExportedFile, Session};
 use crate::scene::{Body, Force, NodeKey, Scene};
 use crate::view;
 
@@ -36,7 +36,13 @@ pub enum Message {
         export: Export,
         file_name: String,
     },
-    /// Writes them there.
+    /// Asks where a file that was made should go.
+    AskWhere {
+        title: &'static str,
+        file: ExportedFile,
+        file_name: String,
+    },
+    /// Writes figures or diagrams of a study there.
     Export(Export, PathBuf),
 }
 

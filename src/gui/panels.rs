@@ -70,11 +70,7 @@ impl dock::Contents for Contents<'_> {
             self.problems.show_beside_tab(ui, self.context);
         }
         if panel == Panel::Events && !self.context.session.frame().ledger.is_empty() {
-            let copy =
-                ui.small_button("Copy").on_hover_text("The rows listed as text with tabs, for a spreadsheet");
-            if copy.clicked() {
-                ui.ctx().copy_text(self.ledger.as_text(self.context));
-            }
+            self.ledger.buttons(ui, self.context);
         }
     }
 }

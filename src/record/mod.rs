@@ -16,6 +16,7 @@ mod paths;
 mod publish;
 mod recorder;
 mod recording;
+mod rows;
 mod run;
 mod settle;
 #[cfg(test)]
@@ -37,7 +38,7 @@ pub use inline::InlineRunner;
 pub use ledger::{EventRow, Ledger};
 pub use limits::{Exceeded, Limits, Watch, advance};
 pub use moment::Moment;
-
+pub use rows::{Column, EVENT_COLUMNS, EventLine, cells};
 pub use thread::ThreadRunner;
 pub use ways::{BodyPath, ImpactBody, PathSpan};
 

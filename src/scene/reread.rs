@@ -7,6 +7,7 @@ use std::sync::Arc;
 use rustc_hash::FxHashMap;
 
 use super::document::{Content, read_file};
+use super::encoding::encode;
 use super::tree::{Child, Children, Element};
 use super::{Document, NodeKey, Scene, Touched};
 
@@ -17,6 +18,11 @@ impl Document {
             Ok(bytes) => self.reread(&bytes),
             Err(_) => Self::open(path),
         }
+    }
+
+    /// As [`Self::reopen`], from a text that was edited by hand, in the encoding of this document.
+    pub fn rewritten(&self, text: &str) -> Self {
+        self.reread(&encode(text, self.source.encoding))
     }
 
     /// As [`Self::reopen`], from bytes.

@@ -5,8 +5,9 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use glam::{DQuat, DVec3};
 use polyscene::export::{Aspect, ExportError, FORMATS, Format, Frames, Report, Verdict, When};
-use polyscene::scene::{Document, NumberStyle, Viewpoint};
+use polyscene::scene::{Document, NumberStyle, Viewpoint, rotation_matrix};
 use quick_xml::Reader;
 use quick_xml::events::Event;
 use serde_json::Value;
@@ -260,7 +261,7 @@ fn gltf_has_cameras_and_shared_meshes() {
         .apply(&polyscene::scene::Edit::Viewpoints(vec![Viewpoint {
             name: "Front".into(),
             perspective: true,
-            target: glam::DVec3::ZERO,
+            target: DVec3::ZERO,
             yaw: 0.0,
             pitch: 0.0,
             height: 2.0 * 0.363_970_234_266_202_4,
@@ -365,6 +366,95 @@ fn motion_is_sampled_at_its_frames() {
         usd.lines().find_map(|line| line.trim().strip_prefix(&format!("{landing:.6}")[..6])).expect("a key");
     let y: f64 = key.split(", ").nth(1).expect("y").parse().expect("a number");
     assert!((y - 0.5).abs() < 1e-12, "the ball touches the floor: {key}");
+}
+
+/// A ball that rolls over a floor from where it is turned somehow: ω = ŷ × v/r, and its orientation is exp(ω t) after that.
+const ROLL: &str = r#"<PolyPhysicsXml Version="1.1"><Map><Size X="9" Y="9" Z="9" /><Tiles X="9" Y="9" Z="9" /></Map>
+<Simulation><Forces><GravityPlane UserID="1"><Translation X="5" Y="9" Z="5" /><Gravity X="0" Y="-9.8" Z="0" /></GravityPlane></Forces></Simulation>
+<Primitives><SoftObject UserID="7"><Translation X="1" Y="0.5" Z="1" /><Rotation X="0.3" Y="-0.2" Z="0.1" /><Bounce F32="0" /><Friction F32="0.3" />
+<InitialVelocity X="1" Y="0" Z="0.5" /><InitialAngularVelocity X="1" Y="0" Z="-2" /><Sphere><Radius F32="0.5" /></Sphere></SoftObject>
+<HardObject UserID="9"><Translation X="5" Y="0" Z="5" /><Rotation X="-1.5707963267948966" Y="0" Z="0" /><Bounce F32="0" /><Friction F32="0.3" /><Plane><HalfSideX F32="40" /><HalfSideY F32="40" /></Plane></HardObject></Primitives></PolyPhysicsXml>"#;
+
+fn rolled(time: f64) -> DQuat {
+    let start = DQuat::from_mat3(&rotation_matrix(DVec3::new(0.3, -0.2, 0.1)));
+    DQuat::from_scaled_axis(time * DVec3::new(1.0, 0.0, -2.0)) * start
+}
+
+/// How far apart two orientations are, as 1 − cos of half the angle; q and −q are the same.
+fn apart(one: DQuat, other: DQuat) -> f64 {
+    1.0 - one.dot(other).abs()
+}
+
+#[test]
+fn a_ball_that_rolls_turns_in_every_format() {
+    let document = Document::from_bytes(ROLL.as_bytes());
+    let frames = Frames { from: 0.5, to: 5.0, fps: 2.0 };
+    let export = |id| format(id).export_when(&document, When::Motion(frames), &mut |_, _| true);
+    let times: Vec<f64> = (0..10).map(|frame| 0.5 + 0.5 * f64::from(frame)).collect();
+    let numbers =
+        |text: &str| -> Vec<f64> { text.split(',').filter_map(|part| part.trim().parse().ok()).collect() };
+
+    let csv = String::from_utf8(export("csv").expect("an export").bytes).expect("UTF-8");
+    let rows: Vec<&str> = csv.lines().collect();
+    assert!(rows[0].ends_with(",qx,qy,qz,qw,wx_rad_per_s,wy_rad_per_s,wz_rad_per_s"), "{}", rows[0]);
+    assert_eq!(rows.len(), 1 + times.len());
+    for (row, time) in rows[1..].iter().zip(&times) {
+        let row = numbers(row);
+        let [x, y, z, w, spin @ ..] = &row[8..] else { panic!("{row:?}") };
+        assert!(apart(DQuat::from_xyzw(*x, *y, *z, *w), rolled(*time)) < 1e-12, "{time} s: {row:?}");
+        assert!((DVec3::from_slice(spin) - DVec3::new(1.0, 0.0, -2.0)).length() < 1e-9, "{row:?}");
+    }
+
+    let glb = export("gltf").expect("an export").bytes;
+    let json = gltf(&glb);
+    let animation = &json["animations"][0];
+    let channel = &animation["channels"][1];
+    assert_eq!(channel["target"], serde_json::json!({ "node": 0, "path": "rotation" }));
+    let sampler = &animation["samplers"][channel["sampler"].as_u64().expect("a sampler") as usize];
+    let keys = accessor(&glb, &json, &sampler["input"], 1);
+    let turns = accessor(&glb, &json, &sampler["output"], 4);
+    assert_eq!((keys.len(), turns.len()), (times.len(), times.len()));
+    let turns: Vec<_> = turns.iter().map(|q| DQuat::from_xyzw(q[0], q[1], q[2], q[3])).collect();
+    for (turn, key) in turns.iter().zip(&keys) {
+        assert!(apart(*turn, rolled(0.5 + key[0])) < 1e-6, "{key:?}: {turn}");
+    }
+    // Over ten radians: without a change of sign a viewer would turn back in between.
+    assert!(turns.windows(2).all(|pair| pair[0].dot(pair[1]) > 0.0), "{turns:?}");
+
+    let usd = String::from_utf8(export("usd").expect("an export").bytes).expect("UTF-8");
+    let samples = usd.split("xformOp:orient.timeSamples = {").nth(1).expect("samples").lines().skip(1);
+    for (line, (code, time)) in samples.zip(times.iter().enumerate()) {
+        let (at, quaternion) = line.trim().split_once(": ").expect("a sample");
+        assert_eq!(at.parse::<f64>().expect("a code"), code as f64);
+        let q = numbers(quaternion.trim_matches(['(', ')', ',']));
+        assert!(apart(DQuat::from_xyzw(q[1], q[2], q[3], q[0]), rolled(*time)) < 1e-12, "{line}");
+    }
+    assert!(balanced(&usd), "{usd}");
+}
+
+/// Where nothing rubs nobody knows how a ball is turned: no channel, empty cells.
+#[test]
+fn a_ball_without_friction_has_no_orientation() {
+    let frames = Frames { from: 0.0, to: 1.0, fps: 4.0 };
+    let csv = String::from_utf8(export_when("csv", When::Motion(frames))).expect("UTF-8");
+    assert!(csv.lines().skip(1).all(|row| row.ends_with(",,,,,,,")), "{csv}");
+    let json = gltf(&export_when("gltf", When::Motion(frames)));
+    assert_eq!(json["animations"][0]["channels"].as_array().map(Vec::len), Some(1));
+    let usd = String::from_utf8(export_when("usd", When::Motion(frames))).expect("UTF-8");
+    assert!(!usd.contains("orient.timeSamples"), "{usd}");
+}
+
+/// The vectors of an accessor of 32-bit numbers.
+fn accessor(glb: &[u8], json: &Value, index: &Value, width: usize) -> Vec<Vec<f64>> {
+    let accessor = &json["accessors"][index.as_u64().expect("an index") as usize];
+    let view = &json["bufferViews"][accessor["bufferView"].as_u64().expect("a view") as usize];
+    let json_length = u32::from_le_bytes(glb[12..16].try_into().expect("four bytes")) as usize;
+    let at = 20 + json_length + 8 + view["byteOffset"].as_u64().expect("an offset") as usize;
+    let count = accessor["count"].as_u64().expect("a count") as usize;
+    let numbers = glb[at..at + 4 * width * count].chunks(4);
+    let numbers: Vec<f64> =
+        numbers.map(|bytes| f64::from(f32::from_le_bytes(bytes.try_into().expect("four")))).collect();
+    numbers.chunks(width).map(<[f64]>::to_vec).collect()
 }
 
 #[test]

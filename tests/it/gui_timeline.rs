@@ -3,6 +3,7 @@
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use polyscene::record::EVENT_COLUMNS;
 
 use crate::gui_files::Dropped;
 use crate::gui_support::Window;
@@ -86,6 +87,50 @@ fn the_ledger_is_narrowed_to_the_step_and_to_bodies() {
     assert!(!window.has(&cell));
     window.click("All");
     assert!(window.has(&cell));
+}
+
+#[test]
+fn the_rows_listed_are_written_to_files() {
+    let mut window = Window::thesis();
+    type_time(&mut window, "6");
+    let ledger = window.frame().ledger.clone();
+    let impulses = ledger.iter_from(0).map(|row| row.event.impulse);
+    let mut sizes: Vec<f64> = impulses.collect();
+    sizes.sort_by(f64::total_cmp);
+    let least = sizes[sizes.len() / 2];
+    type_into(&mut window, "Smallest impulse listed", &least.to_string());
+    let expected: Vec<_> = ledger.iter_from(0).filter(|row| row.event.impulse >= least).cloned().collect();
+    assert!(expected.len() > 1 && expected.len() < ledger.len());
+
+    window.click_role(Role::Button, "CSV…");
+    assert!(window.has("Save the events as"));
+    window.type_text("File name or path", "rows");
+    let text = std::fs::read_to_string(window.folder.path().join("rows.csv")).unwrap();
+    let table: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
+    let names: Vec<_> = EVENT_COLUMNS.iter().map(|column| column.name).collect();
+    assert_eq!(table[0][..names.len()], names, "as `run --events` has them");
+    let own = ["fraction", "energy_change", "row", "rows", "tile_x", "tile_y", "tile_z"];
+    assert_eq!(table[0][names.len()..], own);
+    assert_eq!(table.len(), 1 + expected.len());
+
+    window.click_role(Role::Button, "JSON…");
+    window.type_text("File name or path", "rows.jsonl");
+    let text = std::fs::read_to_string(window.folder.path().join("rows.jsonl")).unwrap();
+    let json: Vec<serde_json::Value> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!(json.len(), expected.len());
+    let column = |name: &str| table[0].iter().position(|column| *column == name).unwrap();
+    for ((row, cells), json) in expected.iter().zip(&table[1..]).zip(&json) {
+        let event = &row.event;
+        assert_eq!(json["seq"], event.seq);
+        assert_eq!((json["a"].as_str(), json["b"].as_str()), (Some(&*row.a_label), Some(&*row.b_label)));
+        for (name, value) in [("t", event.time), ("impulse", event.impulse), ("point_x", event.point.x)] {
+            assert_eq!(cells[column(name)].parse::<f64>().unwrap(), value, "{name}");
+        }
+        assert_eq!(json["energy_change"].as_f64(), row.energy_change());
+        assert_eq!(json["point"][2].as_f64(), Some(event.point.z));
+        let tile = json["tile"].get(2).map_or(String::new(), ToString::to_string);
+        assert_eq!(cells[column("tile_z")], tile, "empty outside the map");
+    }
 }
 
 fn type_into(window: &mut Window, label: &str, text: &str) {

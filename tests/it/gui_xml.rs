@@ -1,10 +1,13 @@
-//! The text of the file beside the picture: what is selected is in sight, a click selects, changes are listed, pieces are copied.
+//! The text of the file beside the picture: what is selected is in sight, a click selects, changes are listed, pieces are copied,
+//! and what is typed is checked and applied.
 
 use egui::Modifiers;
 use egui::accesskit::Role;
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use super::gui_support::Window;
+
+const FIELD: &str = "Text of the file";
 
 impl Window {
     fn xml(id: &str) -> Self {
@@ -17,6 +20,23 @@ impl Window {
         let node = self.harness.query_all_by_label_contains(text).next().unwrap_or_else(|| panic!("{text}"));
         node.click();
         self.harness.run();
+    }
+
+    /// Replaces the whole text that is being edited.
+    fn type_file(&mut self, text: &str) {
+        self.harness.get_by_role_and_label(Role::MultilineTextInput, FIELD).focus();
+        self.harness.run();
+        self.key_with(Modifiers::COMMAND, egui::Key::A);
+        self.harness.event(egui::Event::Paste(text.to_owned()));
+        self.harness.run();
+    }
+
+    fn edited(&self) -> Option<String> {
+        self.harness.query_by_role_and_label(Role::MultilineTextInput, FIELD)?.value()
+    }
+
+    fn is_enabled(&self, button: &str) -> bool {
+        !self.harness.get_by_role_and_label(Role::Button, button).accesskit_node().is_disabled()
     }
 
     /// What was put on the clipboard last.
@@ -87,4 +107,90 @@ fn elements_are_copied_as_they_stand() {
         "{copied}"
     );
     assert!(window.saved().contains(copied.trim_end()));
+}
+
+#[test]
+fn a_text_is_edited_and_applied_as_one_step_while_the_run_goes_on() {
+    let mut window = Window::xml("bounce");
+    let before = window.saved();
+    let (ball, key) = {
+        let ball = window.scene().bodies.iter().find(|body| body.is_dynamic()).unwrap();
+        (ball.display_name().to_owned(), ball.key)
+    };
+    window.click_role(Role::TreeItem, &ball);
+    window.key(egui::Key::Period);
+    let time = window.frame().time;
+    assert!(time > 0.0);
+    window.click_role(Role::Button, "Edit text");
+    assert!(!window.is_enabled("Apply"), "nothing was changed");
+    let new = before.replace("-9,8", "-1,6").replace("-9.8", "-1.6");
+    assert_ne!(before, new);
+    window.type_file(&new.replace("\r\n", "\n"));
+    assert!(window.has("no errors"), "{:?}", window.labels());
+    window.click_role(Role::Button, "Apply");
+    assert_eq!(String::from_utf8(window.harness.state().session().document().to_bytes()).unwrap(), new);
+    assert!(window.edited().is_none(), "the text is read again");
+    assert_eq!((window.frame().time, window.selected()), (time, &[key][..]), "run and selection go on");
+    let gravity = window.frame().bodies[0].acceleration.y;
+    assert!((gravity + 1.6).abs() < 1e-9, "{gravity}");
+    window.menu("Edit", "Undo");
+    assert_eq!(String::from_utf8(window.harness.state().session().document().to_bytes()).unwrap(), before);
+}
+
+/// What is wrong is told while it is typed, never applied, and not lost by a click elsewhere.
+#[test]
+fn a_text_with_errors_stays_until_it_is_mended_or_reverted() {
+    let mut window = Window::xml("bounce");
+    let before = window.saved().replace("\r\n", "\n");
+    window.click_role(Role::Button, "Edit text");
+    let at = before.find("<Weight").or_else(|| before.find("<Translation")).unwrap();
+    let wrong = format!("{}<Weight F32=\"heavy\" />{}", &before[..at], &before[at..]);
+    let line = before[..at].lines().count();
+    window.type_file(&wrong);
+    assert!(window.has_containing("error"), "{:?}", window.labels());
+    assert!(window.has_containing(&format!("{line}:")), "{line}: {:?}", window.labels());
+    assert!(!window.is_enabled("Apply"));
+
+    window.click_role(Role::TreeItem, "Gravity");
+    window.click("Problems");
+    window.click("XML");
+    window.click("Changes");
+    window.click("Text");
+    assert_eq!(window.edited().as_deref(), Some(&*wrong));
+    assert!(!window.harness.state().session().is_dirty());
+
+    // A tag that is never closed is no XML at all.
+    window.type_file("<PolyPhysicsXml>");
+    assert!(window.has("1 error") && !window.is_enabled("Apply"));
+    window.type_file(&before.replace("<Map>", "<Map><!-- mended -->"));
+    assert!(window.has("no errors") && window.is_enabled("Apply"));
+    window.click_role(Role::Button, "Revert");
+    assert!(window.edited().is_none());
+    assert!(!window.harness.state().session().is_dirty());
+
+    // Edited elsewhere meanwhile: said, and one undo step leads back.
+    window.click_role(Role::Button, "Edit text");
+    window.type_file(&before.replace("<Map>", "<Map><!-- mine -->"));
+    window.click_role(Role::TreeItem, "Gravity");
+    window.key(egui::Key::Delete);
+    let deleted = window.harness.state().session().document().to_bytes();
+    assert!(window.has_containing("the scene changed meanwhile"), "{:?}", window.labels());
+    window.click_role(Role::Button, "Apply");
+    assert_eq!(window.scene().forces.len(), 1);
+    window.menu("Edit", "Undo");
+    assert_eq!(window.harness.state().session().document().to_bytes(), deleted);
+}
+
+#[test]
+fn a_file_that_is_no_scene_is_mended_in_the_window() {
+    let good = String::from_utf8(Window::sample("bounce").saved().into_bytes()).unwrap();
+    let mut window = Window::bytes(good.replace("</Map>", "").as_bytes());
+    window.click("XML");
+    window.click_role(Role::Button, "Edit text");
+    assert!(window.has("1 error"), "{:?}", window.labels());
+    window.type_file(&good.replace("\r\n", "\n"));
+    window.click_role(Role::Button, "Apply");
+    assert!(!window.scene().bodies.is_empty());
+    window.key(egui::Key::Period);
+    assert!(window.frame().time > 0.0, "it runs");
 }

@@ -199,6 +199,8 @@ const ROWS: &str = "\
 States, one row at t = 0, after every N-th Δt and at the end:
   {\"t\":0.5,\"bodies\":[{\"id\":\"7\",\"x\":[..],\"v\":[..],\"state\":\"flight\"}]}
   t in s, x in m, v in m/s; state is flight, rest, slide or stepped
+  where bodies rub: \"q\":[x,y,z,w], the unit quaternion that turns the body's axes to where they are, and
+  \"w\":[..], the angular velocity in rad/s, about the axes of the map
 
 Events, one row per contact:
   {\"seq\":1,\"t\":0.1,\"kind\":\"impact\",\"a\":\"7\",\"b\":\"9\",\"point\":[..],\"normal\":[..],
@@ -211,7 +213,7 @@ Events, one row per contact:
   dense and group_rest are about the bodies of one group, of which a has the smallest UserID;
   they say how many these are, \"bodies\":30, and share the group's number
 
-As CSV (--rows csv, or a file that ends in .csv) vectors are three columns: x, y, z, vx, vy, vz of states,
+As CSV (--rows csv, or a file that ends in .csv) vectors are columns: x, y, z, vx, vy, vz, qx … qw, wx, wy, wz of states,
 one row for each body; point_x … normal_z of events.
 
 Ids are UserIDs; the k-th body of a repeated UserID is called UserID#k.";

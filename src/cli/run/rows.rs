@@ -3,50 +3,38 @@
 use glam::DVec3;
 use serde::Serialize;
 
-use crate::sim::{BodyRef, Event, EventKind, Simulation};
+use crate::record::{self, Column, EventLine};
+use crate::sim::{BodyRef, Event, Simulation};
 
-/// A column of CSV and where its value stands in the JSON of a row.
-pub struct Column {
-    pub name: &'static str,
-    pub at: &'static str,
-}
-
-const fn column(name: &'static str, at: &'static str) -> Column {
-    Column { name, at }
-}
-
-/// Of one body at one time.
-pub const STATE_COLUMNS: &[Column] = &[
-    column("t", "/t"),
-    column("id", "/id"),
-    column("x", "/x/0"),
-    column("y", "/x/1"),
-    column("z", "/x/2"),
-    column("vx", "/v/0"),
-    column("vy", "/v/1"),
-    column("vz", "/v/2"),
-    column("state", "/state"),
+/// Of one body at one time. Orientation and spin are there where bodies rub.
+const STATE_COLUMNS: &[Column] = &[
+    Column::new("t", "/t"),
+    Column::new("id", "/id"),
+    Column::new("x", "/x/0"),
+    Column::new("y", "/x/1"),
+    Column::new("z", "/x/2"),
+    Column::new("vx", "/v/0"),
+    Column::new("vy", "/v/1"),
+    Column::new("vz", "/v/2"),
+    Column::new("state", "/state"),
+    Column::new("qx", "/q/0"),
+    Column::new("qy", "/q/1"),
+    Column::new("qz", "/q/2"),
+    Column::new("qw", "/q/3"),
+    Column::new("wx", "/w/0"),
+    Column::new("wy", "/w/1"),
+    Column::new("wz", "/w/2"),
 ];
 
-pub const EVENT_COLUMNS: &[Column] = &[
-    column("seq", "/seq"),
-    column("t", "/t"),
-    column("kind", "/kind"),
-    column("a", "/a"),
-    column("b", "/b"),
-    column("point_x", "/point/0"),
-    column("point_y", "/point/1"),
-    column("point_z", "/point/2"),
-    column("normal_x", "/normal/0"),
-    column("normal_y", "/normal/1"),
-    column("normal_z", "/normal/2"),
-    column("impulse", "/impulse"),
-    column("vn_before", "/vn_before"),
-    column("vn_after", "/vn_after"),
-    column("group", "/group"),
-    column("bodies", "/bodies"),
-    column("dt_index", "/dt_index"),
-];
+static DT_INDEX: Column = Column::new("dt_index", "/dt_index");
+
+pub fn state_columns() -> Vec<&'static Column> {
+    STATE_COLUMNS.iter().collect()
+}
+
+pub fn event_columns() -> Vec<&'static Column> {
+    record::EVENT_COLUMNS.iter().chain([&DT_INDEX]).collect()
+}
 
 /// All dynamic bodies at one time.
 #[derive(Serialize)]
@@ -102,45 +90,16 @@ pub struct TimedBody<'a> {
 /// One contact of one event.
 #[derive(Serialize)]
 pub struct EventRow<'a> {
-    seq: u64,
-    t: f64,
-    kind: &'static str,
-    a: &'a str,
-    b: Option<&'a str>,
-    point: [f64; 3],
-    normal: [f64; 3],
-    impulse: f64,
-    vn_before: f64,
-    vn_after: f64,
-    group: u64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    bodies: Option<u32>,
+    #[serde(flatten)]
+    event: EventLine<'a>,
     dt_index: u64,
 }
 
 impl<'a> EventRow<'a> {
     pub fn new(sim: &'a Simulation, event: &Event, dt_index: u64) -> Self {
-        Self {
-            seq: event.seq,
-            t: event.time,
-            kind: event.kind.name(),
-            a: sim.label(event.a),
-            b: event.b.map(|b| sim.label(b)),
-            point: numbers(event.point),
-            normal: numbers(event.normal),
-            impulse: event.impulse,
-            vn_before: event.vn_before,
-            vn_after: event.vn_after,
-            group: event.group,
-            bodies: is_about_many(event.kind).then_some(event.bodies),
-            dt_index,
-        }
+        let event = EventLine::new(event, sim.label(event.a), event.b.map(|b| sim.label(b)));
+        Self { event, dt_index }
     }
-}
-
-/// Whether a kind of event is about a whole group of bodies.
-fn is_about_many(kind: EventKind) -> bool {
-    matches!(kind, EventKind::Dense | EventKind::GroupRest)
 }
 
 /// To a reader −0 is 0.

@@ -5,11 +5,11 @@ use std::path::Path;
 
 use clap::{Args, ValueEnum};
 use serde::Serialize;
-use serde_json::Value;
 
-use super::rows::{Column, EVENT_COLUMNS, EventRow, STATE_COLUMNS, StateRow};
+use super::rows::{EventRow, StateRow, event_columns, state_columns};
 use crate::cli::CliError;
 use crate::cli::output::LineSink;
+use crate::record::{Column, cells};
 use crate::scene::{Body, Scene};
 use crate::sim::{BodyRef, Event, EventKind, Simulation};
 
@@ -72,11 +72,11 @@ impl RowArgs {
     }
 
     pub fn states(&self, path: &Path) -> Result<Table, CliError> {
-        Table::create(path, self.style_of(path), self.chosen(STATE_COLUMNS)?)
+        Table::create(path, self.style_of(path), self.chosen(state_columns())?)
     }
 
     pub fn events(&self, path: &Path) -> Result<Table, CliError> {
-        Table::create(path, self.style_of(path), self.chosen(EVENT_COLUMNS)?)
+        Table::create(path, self.style_of(path), self.chosen(event_columns())?)
     }
 
     /// Refuses what fits no output, before the run.
@@ -85,10 +85,9 @@ impl RowArgs {
         if !self.columns.is_empty() && outputs.clone().any(|path| self.style_of(path) == Style::Jsonl) {
             return Err(CliError::Usage("--columns are those of CSV: add --rows csv".into()));
         }
-        let tables = [(states, STATE_COLUMNS), (events, EVENT_COLUMNS)];
+        let tables = [(states, state_columns()), (events, event_columns())];
         let tables = tables.into_iter().filter(|(path, _)| path.is_some());
-        let known: Vec<&str> =
-            tables.flat_map(|(_, columns)| columns.iter().map(|column| column.name)).collect();
+        let known: Vec<&str> = tables.flat_map(|(_, columns)| columns).map(|column| column.name).collect();
         match self.columns.iter().find(|name| !known.contains(&name.trim())) {
             Some(unknown) if !known.is_empty() => {
                 Err(CliError::Usage(format!("--columns: {unknown} is none of {}", known.join(", "))))
@@ -103,11 +102,11 @@ impl RowArgs {
     }
 
     /// The columns asked for, of those that a table has; all unless some were named.
-    fn chosen(&self, all: &'static [Column]) -> Result<Vec<&'static Column>, CliError> {
+    fn chosen(&self, all: Vec<&'static Column>) -> Result<Vec<&'static Column>, CliError> {
         if self.columns.is_empty() {
-            return Ok(all.iter().collect());
+            return Ok(all);
         }
-        let named = |name: &String| all.iter().find(|column| column.name == name.trim());
+        let named = |name: &String| all.iter().copied().find(|column| column.name == name.trim());
         let chosen: Vec<_> = self.columns.iter().filter_map(named).collect();
         if chosen.is_empty() {
             let names: Vec<_> = all.iter().map(|column| column.name).collect();
@@ -170,18 +169,6 @@ impl Table {
     }
 
     fn csv(&mut self, row: &impl Serialize) -> Result<(), CliError> {
-        let value = serde_json::to_value(row).unwrap_or_default();
-        let cell = |column: &&Column| value.pointer(column.at).map(text).unwrap_or_default();
-        let cells: Vec<String> = self.columns.iter().map(cell).collect();
-        self.sink.line(&cells.join(","))
-    }
-}
-
-/// Labels are numbers with `#`, and kinds and states words: nothing needs quotes.
-fn text(value: &Value) -> String {
-    match value {
-        Value::Null => String::new(),
-        Value::String(text) => text.clone(),
-        other => other.to_string(),
+        self.sink.line(&cells(row, self.columns.iter().copied()).join(","))
     }
 }

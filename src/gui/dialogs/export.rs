@@ -204,7 +204,8 @@ impl ExportDialog {
         let write = ui.add_enabled(ready, button.min_size(vec2(110.0, 24.0)));
         if let (true, Some(Ok(exported)), Some(format)) = (write.clicked(), &self.outcome, self.chosen()) {
             let file = ExportedFile { extension: format.extension, bytes: exported.bytes.clone().into() };
-            decision = Decision::Write(FileRequest::ExportScene {
+            decision = Decision::Write(FileRequest::Made {
+                title: "Export the scene as",
                 file,
                 directory: context.session.path().and_then(Path::parent).map(Path::to_owned),
                 file_name: format!("{}.{}", stem(context.session.title()), format.extension),

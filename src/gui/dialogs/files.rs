@@ -16,8 +16,10 @@ pub enum FileRequest {
         directory: Option<PathBuf>,
         file_name: String,
     },
-    /// The scene for another program.
-    ExportScene {
+    /// What was made: a scene for another program, rows of the ledger.
+    Made {
+        /// Heading of the dialog.
+        title: &'static str,
         file: ExportedFile,
         directory: Option<PathBuf>,
         file_name: String,
@@ -40,7 +42,7 @@ impl FileRequest {
             Self::Open => Message::Do(Action::OpenPath(path)),
             Self::Save { .. } => Message::Do(Action::SaveTo(path)),
             Self::Recording { .. } => Message::Do(Action::SaveRecording(path)),
-            Self::ExportScene { file, .. } => Message::Do(Action::WriteExport(path, file.clone())),
+            Self::Made { file, .. } => Message::Do(Action::WriteExport(path, file.clone())),
             Self::Export { export, .. } => Message::Export(*export, path),
         }
     }
@@ -51,7 +53,7 @@ impl FileRequest {
             Self::Open => vec!["xml", "psrec", "mjcf", "sdf", "world"],
             Self::Save { .. } => vec!["xml"],
             Self::Recording { .. } => vec!["psrec"],
-            Self::ExportScene { file, .. } => vec![file.extension],
+            Self::Made { file, .. } => vec![file.extension],
             Self::Export { export, .. } => vec![export.extension()],
         }
     }
@@ -62,7 +64,7 @@ impl FileRequest {
             Self::Open => "Open a scene",
             Self::Save { .. } => "Save the scene as",
             Self::Recording { .. } => "Save the recording as",
-            Self::ExportScene { .. } => "Export the scene as",
+            Self::Made { title, .. } => title,
             Self::Export { .. } => "Export the study as",
         }
     }
@@ -120,7 +122,7 @@ impl FileDialogs for NativeFileDialogs {
                     dialog.set_file_name(file_name).save_file()
                 }
                 FileRequest::Save { directory, file_name }
-                | FileRequest::ExportScene { directory, file_name, .. } => {
+                | FileRequest::Made { directory, file_name, .. } => {
                     let dialog = dialog.set_file_name(file_name);
                     match directory {
                         Some(directory) => dialog.set_directory(directory).save_file(),

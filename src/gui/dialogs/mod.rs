@@ -117,7 +117,7 @@ impl Dialogs {
         self.ask(ctx, request);
     }
 
-    fn ask(&mut self, ctx: &Context, request: FileRequest) {
+    pub fn ask(&mut self, ctx: &Context, request: FileRequest) {
         self.files.ask(ctx, &request);
         self.asked = Some(request);
         // the answer may be there already

@@ -34,8 +34,7 @@ impl PathDialog {
         let beside = session.path().and_then(Path::parent).map(Path::to_owned);
         let (folder, text) = match &request {
             FileRequest::Open => (beside, String::new()),
-            FileRequest::Save { directory, file_name }
-            | FileRequest::ExportScene { directory, file_name, .. } => {
+            FileRequest::Save { directory, file_name } | FileRequest::Made { directory, file_name, .. } => {
                 (directory.clone().or(beside), file_name.clone())
             }
             FileRequest::Export { file_name, .. } | FileRequest::Recording { file_name } => {

@@ -1,4 +1,4 @@
-//! The columns of the ledger: one table for the panel, the copy and the order of the rows.
+//! The columns of the ledger: one table for the panel and the order of the rows.
 
 use crate::gui::context::AppContext;
 use crate::gui::numbers::significant;
@@ -9,15 +9,11 @@ use crate::sim::EventKind;
 pub struct LedgerColumn {
     /// With its unit.
     pub title: &'static str,
-    /// In copies and files.
-    pub name: &'static str,
     pub help: &'static str,
     /// Points.
     pub width: f32,
     /// What the panel shows.
     pub text: fn(&AppContext<'_>, &EventRow) -> String,
-    /// With all digits.
-    pub full: fn(&AppContext<'_>, &EventRow) -> String,
     /// What rows are sorted by.
     pub key: Option<fn(&EventRow) -> f64>,
 }
@@ -29,54 +25,43 @@ pub const BODIES: usize = 4;
 pub const COLUMNS: [LedgerColumn; 12] = [
     LedgerColumn {
         title: "#",
-        name: "seq",
         help: "Number of the event since the start",
         width: 58.0,
         text: |_, row| row.event.seq.to_string(),
-        full: |_, row| row.event.seq.to_string(),
         key: Some(|row| row.event.seq as f64),
     },
     LedgerColumn {
         title: "t [s]",
-        name: "t",
         help: "Model time",
         width: 104.0,
         text: |_, row| format!("{:.9}", row.event.time),
-        full: |_, row| row.event.time.to_string(),
         key: Some(|row| row.event.time),
     },
     LedgerColumn {
         title: "Δt",
-        name: "fraction",
         help: "Where in its Δt it happened, 0 % to 100 %, if all Δt are as long as that being looked at",
         width: 48.0,
         text: |context, row| {
             fraction(context, row).map_or(String::new(), |share| format!("{:.0} %", 100.0 * share))
         },
-        full: |context, row| fraction(context, row).map_or(String::new(), |share| share.to_string()),
         key: None,
     },
     LedgerColumn {
         title: "Kind",
-        name: "kind",
         help: "What happened",
         width: 92.0,
         text: |_, row| kind(row),
-        full: |_, row| row.event.kind.name().to_owned(),
         key: Some(|row| EventKind::ALL.iter().position(|kind| *kind == row.event.kind).unwrap_or(0) as f64),
     },
     LedgerColumn {
         title: "Bodies",
-        name: "bodies",
         help: "Who took part; the contacts of bodies that touch are resolved together",
         width: 150.0,
         text: bodies,
-        full: |_, row| joined(&row.a_label, &row.b_label),
         key: Some(|row| row.a_key.0 as f64),
     },
     LedgerColumn {
         title: "Normal speed before → after [m/s]",
-        name: "vn_before\tvn_after",
         help: "Speed along the normal, of the second body relative to the first: negative when closing",
         width: 204.0,
         text: |_, row| {
@@ -84,64 +69,50 @@ pub const COLUMNS: [LedgerColumn; 12] = [
             let speeds = [event.vn_before, event.vn_after].map(|speed| significant(speed, 6));
             if_impact(row, || speeds.join(" → "))
         },
-        full: |_, row| format!("{}\t{}", row.event.vn_before, row.event.vn_after),
         key: Some(|row| row.event.vn_before.abs()),
     },
     LedgerColumn {
         title: "Impulse [N·s]",
-        name: "impulse",
         help: "Momentum handed over along the normal",
         width: 92.0,
         text: |_, row| if_impact(row, || significant(row.event.impulse, 6)),
-        full: |_, row| row.event.impulse.to_string(),
         key: Some(|row| row.event.impulse),
     },
     LedgerColumn {
         title: "ΔE [J]",
-        name: "energy_change",
         help: "Energy that the impact left the bodies with, less what they came with",
         width: 88.0,
         text: |_, row| row.energy_change().map_or(String::new(), |change| significant(change, 5)),
-        full: |_, row| row.energy_change().map_or(String::new(), |change| change.to_string()),
         key: Some(|row| row.energy_change().unwrap_or(0.0)),
     },
     LedgerColumn {
         title: "Group",
-        name: "group\trow\trows",
         help: "Number of the impact group, whose contacts are resolved together",
         width: 56.0,
         text: |_, row| if row.event.group > 0 { row.event.group.to_string() } else { String::new() },
-        full: |_, row| {
-            let [nth, of] = row.event.row_in_group;
-            format!("{}\t{nth}\t{of}", row.event.group)
-        },
         key: Some(|row| row.event.group as f64),
     },
     LedgerColumn {
         title: "Place [m]",
-        name: "x\ty\tz",
         help: "The point where they touched",
         width: 176.0,
         text: |_, row| vector(row.event.point, row.event.point.abs().max_element()),
-        full: |_, row| row.event.point.to_array().map(|value| value.to_string()).join("\t"),
         key: None,
     },
     LedgerColumn {
         title: "Normal",
-        name: "nx\tny\tnz",
         help: "Unit vector from the first body to the second where they touched",
         width: 150.0,
         text: |_, row| if_impact(row, || vector(row.event.normal, 1.0)),
-        full: |_, row| row.event.normal.to_array().map(|value| value.to_string()).join("\t"),
         key: None,
     },
     LedgerColumn {
         title: "Tile",
-        name: "tile",
         help: "Tile of the map that the place lies in, counted from 0",
         width: 76.0,
-        text: |context, row| tile(context, row).map_or(String::new(), |tile| tile.join(", ")),
-        full: |context, row| tile(context, row).map_or(String::new(), |tile| tile.join(" ")),
+        text: |context, row| {
+            tile(context, row).map_or(String::new(), |tile| tile.map(|number| number.to_string()).join(", "))
+        },
         key: None,
     },
 ];
@@ -170,19 +141,20 @@ fn vector(value: glam::DVec3, size: f64) -> String {
 }
 
 /// Where in its Δt an event happened.
-fn fraction(context: &AppContext<'_>, row: &EventRow) -> Option<f64> {
+pub(super) fn fraction(context: &AppContext<'_>, row: &EventRow) -> Option<f64> {
     let (start, end) = context.session.frame().step.filter(|(start, end)| end > start)?;
     let share = (row.event.time - start) / (end - start);
     Some(if (0.0..=1.0).contains(&share) { share } else { share - share.floor() })
 }
 
-fn tile(context: &AppContext<'_>, row: &EventRow) -> Option<[String; 3]> {
+/// The tile of the map that an event was in, counted from 0.
+pub(super) fn tile(context: &AppContext<'_>, row: &EventRow) -> Option<[u32; 3]> {
     let map = context.scene()?.map;
     let place = row.event.point / map.size;
     let inside = place.cmpge(glam::DVec3::ZERO).all() && place.cmple(glam::DVec3::ONE).all();
     let tiles = map.tiles.map(f64::from);
     inside.then(|| {
-        std::array::from_fn(|axis| (place[axis] * tiles[axis]).floor().min(tiles[axis] - 1.0).to_string())
+        std::array::from_fn(|axis| (place[axis] * tiles[axis]).floor().min(tiles[axis] - 1.0) as u32)
     })
 }
 

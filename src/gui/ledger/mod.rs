@@ -4,8 +4,8 @@
 mod columns;
 mod filter;
 mod listed;
+mod written;
 
-use std::fmt::Write as _;
 use std::sync::Arc;
 
 use egui::{RichText, Sense, Ui};
@@ -97,15 +97,26 @@ impl LedgerPanel {
         Some(self.listed.place_of(&frame.ledger, event - nth)?.saturating_sub(1))
     }
 
-    /// The rows listed as text with tabs, all digits.
-    pub fn as_text(&self, context: &AppContext<'_>) -> String {
-        let mut text = COLUMNS.iter().map(|column| column.name).collect::<Vec<_>>().join("\t") + "\n";
-        for row in self.listed.rows(&context.session.frame().ledger) {
-            let cells = COLUMNS.iter().map(|column| (column.full)(context, row));
-            // writing to a string cannot fail
-            let _ = writeln!(text, "{}", cells.collect::<Vec<_>>().join("\t"));
+    /// What takes the rows listed away: a copy, files.
+    pub fn buttons(&mut self, ui: &mut Ui, context: &AppContext<'_>) {
+        let clicked =
+            |ui: &mut Ui, name: &str, help: &str| ui.small_button(name).on_hover_text(help).clicked();
+        let copies = clicked(ui, "Copy", "The rows listed as text with tabs, for a spreadsheet");
+        let csv = clicked(ui, "CSV…", "Writes the rows listed to a file, with all digits");
+        let json = clicked(ui, "JSON…", "Writes the rows listed to a file of JSON Lines, with all digits");
+        if !(copies || csv || json) {
+            return;
         }
-        text
+        let ledger = &context.session.frame().ledger;
+        while self.listed.look(ledger, &self.bar.wanted(context), self.order) {}
+        let rows = self.listed.rows(ledger);
+        if copies {
+            ui.ctx().copy_text(written::table(context, rows, "\t"));
+        } else if csv {
+            context.outbox.send(written::request(context, "csv", written::table(context, rows, ",")));
+        } else {
+            context.outbox.send(written::request(context, "jsonl", written::json_lines(context, rows)));
+        }
     }
 }
 

@@ -38,7 +38,9 @@ fn csv_has_the_numbers_of_json() {
     }
     let (json, text) = (rows(&run(&["--states", "-"])), run(&["--states", "-", "--rows", "csv"]));
     let table = csv(&text);
-    assert_eq!(table[0], ["t", "id", "x", "y", "z", "vx", "vy", "vz", "state"]);
+    let spin = ["qx", "qy", "qz", "qw", "wx", "wy", "wz"];
+    assert_eq!(table[0], [&["t", "id", "x", "y", "z", "vx", "vy", "vz", "state"], &spin[..]].concat());
+    assert!(table[1..].iter().all(|row| row[9..] == [""; 7]), "nothing rubs: {text}");
     for (row, state) in table[1..].iter().zip(&json) {
         let body = &state["bodies"][0];
         let expected = [&state["t"], &body["x"][1], &body["v"][1]].map(number);
@@ -51,6 +53,35 @@ fn csv_has_the_numbers_of_json() {
     for key in event.as_object().unwrap().keys() {
         assert!(header.contains(key.as_str()), "{key} in {header}");
     }
+}
+
+#[test]
+fn states_of_a_ball_that_rubs_have_its_orientation_and_spin() {
+    let rough = BOUNCE
+        .replace("Version=\"1.0\">", "Version=\"1.1\">")
+        .replace(
+            "<Weight",
+            "<Friction F32=\"0,3\" /><InitialAngularVelocity X=\"0\" Y=\"5\" Z=\"0\" /><Weight",
+        )
+        .replace("      <Plane>", "      <Friction F32=\"0,3\" />\n      <Plane>");
+    let bench = Bench::with_scene(&rough);
+    let run = |options: &[&str]| {
+        let outcome =
+            bench.polyscene(&[&["run", "scene.xml", "--until", "0.5", "--states", "-"], options].concat());
+        assert_eq!(outcome.code, 0, "{options:?}: {}", outcome.stderr);
+        outcome.stdout
+    };
+    let (json, text) = (rows(&run(&[])), run(&["--rows", "csv"]));
+    let table = csv(&text);
+    assert_eq!(table.len(), 3, "{text}");
+    // After half a second of 5 rad/s about y.
+    let half = 0.5 * 0.5 * 5.0_f64;
+    let expected = [0.0, half.sin(), 0.0, half.cos(), 0.0, 5.0, 0.0];
+    let numbers: Vec<f64> = table[2][9..].iter().map(|cell| cell.parse().expect("a number")).collect();
+    assert!(numbers.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{numbers:?}");
+    let body = &json[1]["bodies"][0];
+    let of_json = [&body["q"], &body["w"]].map(|values| values.as_array().expect("numbers").clone()).concat();
+    assert_eq!(of_json.iter().map(number).collect::<Vec<_>>(), numbers);
 }
 
 #[test]

@@ -1,9 +1,14 @@
 //! The text of the scene's file beside the picture: what is selected is marked, a click selects, changes since saving are
-//! listed. Read only.
+//! listed. It is read, or edited and then applied.
+
+mod colors;
+mod draft;
 
 use egui::text::{LayoutJob, TextFormat};
 use egui::{Align, Color32, FontId, Label, RichText, ScrollArea, Sense, Ui, vec2};
 
+use self::colors::piece;
+use self::draft::Draft;
 use super::colors::tones;
 use super::context::AppContext;
 use super::numbers::count;
@@ -25,6 +30,8 @@ pub struct XmlPane {
     /// What was selected when the text was scrolled last.
     shown: Option<NodeKey>,
     shows_changes: bool,
+    /// The text while it is edited. It stays until it is applied or reverted.
+    draft: Option<Draft>,
     /// The changes since saving, and of which document.
     changes: Option<((u64, u64), Vec<DiffLine>)>,
 }
@@ -38,19 +45,35 @@ impl XmlPane {
             self.text = DocumentText::of(context.session.document());
             self.of = Some(of);
         }
-        self.bar(ui, context);
-        if self.shows_changes {
-            self.changes(ui, context, of);
-        } else {
-            self.text(ui, context);
+        self.bar(ui, context, of);
+        match &mut self.draft {
+            _ if self.shows_changes => self.changes(ui, context, of),
+            Some(draft) => draft.show(ui, context),
+            None => self.text(ui, context),
         }
     }
 
-    fn bar(&mut self, ui: &mut Ui, context: &AppContext<'_>) {
+    fn bar(&mut self, ui: &mut Ui, context: &AppContext<'_>, of: (u64, u64)) {
         ui.horizontal(|ui| {
             ui.selectable_value(&mut self.shows_changes, false, "Text").on_hover_text("As it would be saved");
             let changes = ui.selectable_value(&mut self.shows_changes, true, "Changes");
             changes.on_hover_text("What saving would change in the file");
+            if self.draft.is_some() {
+                self.edit_buttons(ui, context, of);
+                return;
+            }
+            let short = self.text.text().len() <= draft::LONGEST;
+            let edit = ui.add_enabled(short, egui::Button::new("Edit text"));
+            let edit =
+                edit.on_hover_text("Lets you type in the text, and apply what you typed as one undo step");
+            let why_not =
+                "Too long to edit here: edit the file in another program, and it is offered to be read again";
+            if edit.on_disabled_hover_text(why_not).clicked() {
+                self.shows_changes = false;
+                let selected = context.session.selection().primary().and_then(|key| self.text.place(key));
+                let at = selected.map_or(0, |place| place.start);
+                self.draft = Some(Draft::of(context.session.document(), (self.text.text(), at), of));
+            }
             let lines = format!("{} lines", count(self.text.line_count() as u64));
             ui.label(RichText::new(lines).color(tones(ui).weak));
             let (name, help) = if context.session.selection().is_empty() {
@@ -62,6 +85,40 @@ impl XmlPane {
                 ui.ctx().copy_text(self.chosen(context.session.selection().keys()));
             }
         });
+    }
+
+    /// Apply and Revert, and what stands in the way.
+    fn edit_buttons(&mut self, ui: &mut Ui, context: &AppContext<'_>, of: (u64, u64)) {
+        let Some(draft) = &self.draft else { return };
+        let is_of_this_file = draft.of.0 == of.0;
+        let can_apply = is_of_this_file && draft.is_changed() && draft.is_checked() && draft.errors() == 0;
+        let apply = ui.add_enabled(can_apply, egui::Button::new("Apply"));
+        let why_not = match draft.errors() {
+            _ if !is_of_this_file => "The text is that of the scene open before",
+            0 => "Nothing was changed",
+            _ => "The text has errors",
+        };
+        let apply =
+            apply.on_hover_text("Takes the text as the scene: one undo step").on_disabled_hover_text(why_not);
+        let revert =
+            ui.button("Revert").on_hover_text("Drops what was typed and shows the scene's text again");
+        let tones = tones(ui);
+        let (text, color) = match draft.errors() {
+            _ if !is_of_this_file => ("text of the scene open before".to_owned(), tones.warning),
+            0 if draft.of != of => {
+                ("the scene changed meanwhile: applying replaces those changes".to_owned(), tones.warning)
+            }
+            0 => ("no errors".to_owned(), tones.weak),
+            1 => ("1 error".to_owned(), tones.error),
+            errors => (format!("{errors} errors"), tones.error),
+        };
+        ui.label(RichText::new(text).color(color));
+        if apply.clicked() {
+            context.outbox.act(Action::ReplaceText(draft.written()));
+        }
+        if apply.clicked() || revert.clicked() {
+            self.draft = None;
+        }
     }
 
     /// The elements of these bodies and forces in file order, or all.
@@ -202,19 +259,8 @@ fn colored(
     add(gutter, tones.weak.gamma_multiply(0.7));
     let mut rest = shown;
     let mut at = start;
-    while let Some(first) = rest.chars().next() {
-        let (length, color) = if text.is_comment(at) {
-            (rest.find("-->").map_or(rest.len(), |end| end + 3), tones.weak)
-        } else if first == '"' {
-            let end = rest.get(1..).and_then(|rest| rest.find('"')).map_or(rest.len(), |end| end + 2);
-            (end, tones.good)
-        } else if first == '<' {
-            let end = rest.find([' ', '>']).unwrap_or(rest.len());
-            (end.max(1), tones.accent)
-        } else {
-            let end = rest.get(first.len_utf8()..).and_then(|rest| rest.find(['"', '<']));
-            (end.map_or(rest.len(), |end| end + first.len_utf8()), tones.strong)
-        };
+    while !rest.is_empty() {
+        let (length, color) = piece(rest, text.is_comment(at), &tones);
         let (piece, after) = rest.split_at(length);
         add(piece, color);
         (rest, at) = (after, at + length);
