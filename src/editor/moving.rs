@@ -80,7 +80,9 @@ impl Session {
     pub(super) fn can_run_to_rest(&self) -> Result<(), &'static str> {
         self.can_run()?;
         match self.scene() {
-            Some(scene) if !scene.takes_energy() => Err("nothing in this scene takes energy, so it never rests"),
+            Some(scene) if !scene.takes_energy() => {
+                Err("nothing in this scene takes energy, so it never rests")
+            }
             _ => Ok(()),
         }
     }
