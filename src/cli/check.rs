@@ -33,6 +33,10 @@ pub struct CheckArgs {
     /// Where the one scene that --fix put right goes
     #[arg(long, short, value_name = "FILE", requires = "fix")]
     output: Option<PathBuf>,
+
+    /// Replace the file of --output, should it exist
+    #[arg(long, requires = "output")]
+    force: bool,
 }
 
 pub(super) fn check(args: &CheckArgs) -> Result<(), CliError> {
@@ -80,9 +84,16 @@ impl CheckArgs {
             None if self.fix && self.files.iter().any(|file| output::is_stdout(file)) => {
                 "--fix of standard input needs --output FILE"
             }
-            _ => return Ok(()),
+            _ => return self.refuse_bad_output(),
         };
         Err(CliError::Usage(refusal.into()))
+    }
+
+    fn refuse_bad_output(&self) -> Result<(), CliError> {
+        match (&self.output, self.files.first()) {
+            (Some(output), Some(file)) => output::refuse_bad(output, ("the scene", file), self.force),
+            _ => Ok(()),
+        }
     }
 }
 

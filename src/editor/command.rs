@@ -102,6 +102,10 @@ pub enum ViewCommand {
     FrameMap,
     /// Keeps what was selected last in its place in the view, or no longer.
     Follow,
+    /// Puts the eye into what was selected last, or back.
+    LookFromBody,
+    /// Keys and mouse move through the scene until Escape.
+    Fly,
     Perspective,
     Along(AxisView),
     Maximize,
@@ -109,6 +113,8 @@ pub enum ViewCommand {
     TwoViews,
     FourViews,
     ToggleProjection,
+    /// Views along axes are moved and magnified together.
+    ToggleLinked,
     ToggleSnapping,
     /// What the handles of the selection do.
     Tool(Tool),
@@ -140,6 +146,21 @@ pub enum WindowCommand {
     Shortcuts,
     Palette,
     About,
+}
+
+impl ViewCommand {
+    /// Whether it says where the active view looks.
+    pub fn is_a_look(self) -> bool {
+        matches!(
+            self,
+            Self::FrameSelection
+                | Self::FrameAll
+                | Self::FrameMap
+                | Self::Perspective
+                | Self::Along(_)
+                | Self::ToggleProjection
+        )
+    }
 }
 
 impl From<SessionCommand> for Command {

@@ -4,6 +4,7 @@
 mod action;
 mod building;
 mod catalog;
+mod catalog_views;
 mod claim;
 mod clipboard;
 mod command;

@@ -155,7 +155,8 @@ impl App {
         let blocked = self.session.question().is_some()
             || self.dialogs.are_open()
             || egui::Popup::is_any_open(ctx)
-            || self.views.is_dragging();
+            || self.views.is_dragging()
+            || self.views.are_flying();
         if !blocked {
             shortcuts::collect(ctx, &self.outbox, self.views.have_focus(ctx), self.was_typing);
         }
@@ -222,7 +223,7 @@ impl App {
         let (menu_bar, tool_bar) = (bar(egui::Margin::symmetric(6, 2)), bar(egui::Margin::symmetric(6, 3)));
         let flush = bar(egui::Margin::ZERO);
         egui::Panel::top("menu").frame(menu_bar).show(ui, |ui| {
-            menu::show(ui, &context, self.views.active_overlays(), self.views.snapping);
+            menu::show(ui, &context, self.views.active_overlays(), &self.views.switched_on());
         });
         egui::Panel::top("transport").frame(tool_bar).exact_size(34.0).show(ui, |ui| {
             self.transport.show(ui, &context, self.views.layout(), self.views.snapping);

@@ -5,18 +5,23 @@ use egui::{Button, Ui};
 use super::context::AppContext;
 use crate::design::{TOOLS, ToolGroup};
 use crate::editor::{
-    COMMANDS, CommandInfo, Menu, SAMPLES, SampleGroup, SessionCommand, ViewCommand, WindowCommand,
+    COMMANDS, Command, CommandInfo, Menu, SAMPLES, SampleGroup, SessionCommand, ViewCommand, WindowCommand,
 };
 use crate::scene::shown_path;
 use crate::view::OVERLAYS;
 
-/// Overlays of the active view and whether drags snap, for the marks in the View menu.
-pub fn show(ui: &mut Ui, context: &AppContext<'_>, overlays: crate::view::OverlaySet, snapping: bool) {
+/// Overlays of the active view and what is switched on in the views, for the marks in the View menu.
+pub fn show(
+    ui: &mut Ui,
+    context: &AppContext<'_>,
+    overlays: crate::view::OverlaySet,
+    switched_on: &[ViewCommand],
+) {
     egui::MenuBar::new().ui(ui, |ui| {
         for menu in Menu::ALL {
             ui.menu_button(menu.label(), |ui| {
                 ui.set_min_width(230.0);
-                rows(ui, context, menu, snapping);
+                rows(ui, context, menu, switched_on);
                 match menu {
                     Menu::File => files(ui, context),
                     Menu::View => overlay_menu(ui, context, overlays),
@@ -31,7 +36,7 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>, overlays: crate::view::Overla
     });
 }
 
-fn rows(ui: &mut Ui, context: &AppContext<'_>, menu: Menu, snapping: bool) {
+fn rows(ui: &mut Ui, context: &AppContext<'_>, menu: Menu, switched_on: &[ViewCommand]) {
     let mut group = None;
     for row in COMMANDS.iter().filter(|row| row.menu == menu) {
         if group.is_some_and(|group| group != row.group) {
@@ -42,7 +47,8 @@ fn rows(ui: &mut Ui, context: &AppContext<'_>, menu: Menu, snapping: bool) {
             // what opens files stands together, above the way out
             continue;
         }
-        let mark = if snapping && row.command == ViewCommand::ToggleSnapping.into() { ": on" } else { "" };
+        let on = matches!(row.command, Command::View(command) if switched_on.contains(&command));
+        let mark = if on { ": on" } else { "" };
         marked_entry(ui, context, row, mark);
     }
 }

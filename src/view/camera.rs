@@ -52,11 +52,11 @@ pub struct Camera {
 }
 
 /// Tangent of half the vertical field of view of a perspective camera: 20°.
-const TAN_HALF_FOV: f64 = 0.363_970_234_266_202_4;
+pub(super) const TAN_HALF_FOV: f64 = 0.363_970_234_266_202_4;
 
 /// Near plane over the distance from eye to target. There is no far plane: a 24-bit depth buffer then
 /// tells depths apart that differ by 3e-5 of the distance, at the target.
-const NEAR_OVER_DISTANCE: f64 = 1.0 / 500.0;
+pub(super) const NEAR_OVER_DISTANCE: f64 = 1.0 / 500.0;
 
 /// Half the depth of an orthographic view over its height. What lies beyond is drawn at the limit.
 const ORTHO_DEPTH_OVER_HEIGHT: f64 = 1000.0;

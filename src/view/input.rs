@@ -48,6 +48,8 @@ pub struct ViewInput<'a> {
     /// Bodies and forces, by document key.
     pub selection: &'a [NodeKey],
     pub hovered: Option<NodeKey>,
+    /// The body whose centre the eye is at: it is not seen.
+    pub inside: Option<NodeKey>,
     /// The event whose place is marked.
     pub highlighted: Option<&'a EventRow>,
 }
@@ -64,6 +66,7 @@ impl<'a> ViewInput<'a> {
             theme: Theme::Dark,
             selection: &[],
             hovered: None,
+            inside: None,
             highlighted: None,
         }
     }

@@ -23,6 +23,7 @@ struct Key {
     theme: super::Theme,
     selection: Vec<crate::scene::NodeKey>,
     hovered: Option<crate::scene::NodeKey>,
+    inside: Option<crate::scene::NodeKey>,
     highlighted: Option<u64>,
 }
 
@@ -42,6 +43,7 @@ impl ListCache {
             theme: input.theme,
             selection: input.selection.to_vec(),
             hovered: input.hovered,
+            inside: input.inside,
             highlighted: input.highlighted.map(|row| row.event.seq),
         };
         match &self.list {

@@ -8,6 +8,7 @@ mod build;
 mod camera;
 mod color;
 mod draw_list;
+mod first_person;
 mod forces;
 mod format;
 mod furniture;

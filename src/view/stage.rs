@@ -67,7 +67,7 @@ impl<'a> Stage<'a> {
             nth_dynamic += usize::from(body.is_dynamic());
             let now = now.get(&body.key).copied();
             let position = now.map_or(body.position, |now| now.position);
-            if body.hidden || !is_drawable(position) {
+            if body.hidden || input.inside == Some(body.key) || !is_drawable(position) {
                 continue;
             }
             let selected = selection.contains(&body.key);

@@ -182,3 +182,41 @@ fn clipping_keeps_exactly_what_is_seen() {
         assert!(gone.is_none(), "{camera:?}");
     }
 }
+
+#[test]
+fn an_eye_stands_where_it_is_put_and_turns_without_leaving() {
+    let cases = [(1e-3, DVec3::splat(2.0)), (0.5, dvec3(-7.0, 3.0, 1e3)), (20.0, DVec3::ZERO)];
+    for (near, eye) in cases {
+        for camera in cameras() {
+            let mut camera = camera;
+            camera.stand_at(eye, near);
+            let off = 1e-13 * (camera.distance() + eye.length());
+            assert!(camera.eye().distance(eye) <= off, "{camera:?}");
+            assert!(
+                (camera.near() / near - 1.0).abs() < 1e-12 && camera.projection == Projection::Perspective
+            );
+            camera.turn_head(0.4, 0.2);
+            assert!(camera.eye().distance(eye) <= 4.0 * off, "{camera:?}");
+            let (ahead, up) = (-camera.backward(), DVec3::Y);
+            camera.fly(0.0, 2.0, 3.0);
+            assert!(camera.eye().distance(eye + 3.0 * ahead + 2.0 * up) <= 8.0 * off, "{camera:?}");
+        }
+    }
+}
+
+#[test]
+fn a_look_along_a_direction_has_it_in_the_middle() {
+    for direction in
+        [dvec3(1.0, 0.0, 0.0), dvec3(-3e-7, 4e-7, 1e-7), dvec3(2.0, -5e5, 3.0), DVec3::Y, -DVec3::Y]
+    {
+        for camera in cameras() {
+            let [yaw, pitch] = camera.angles_along(direction).unwrap();
+            let turned = Camera { yaw, pitch, ..camera };
+            assert!((turned.backward() + direction.normalize()).length() < 1e-15, "{direction} {turned:?}");
+            if direction.x == 0.0 {
+                assert_eq!(yaw, camera.yaw, "up and down have no yaw");
+            }
+        }
+    }
+    assert_eq!(Camera::default().angles_along(DVec3::ZERO), None);
+}

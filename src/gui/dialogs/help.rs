@@ -52,7 +52,7 @@ const WINDOW: [(&str, &str); 9] = [
     ),
 ];
 
-const GESTURES: [(&str, &str); 14] = [
+const GESTURES: [(&str, &str); 15] = [
     ("Click", "Select; again at the same place: what lies behind"),
     ("Ctrl or Shift + click", "Add to the selection or take out"),
     ("Drag", "Select by a rectangle"),
@@ -70,6 +70,10 @@ const GESTURES: [(&str, &str); 14] = [
     ("Double click a view's title", "Fill the middle with it"),
     ("Arrows", "Move the selection by a round step; with nothing selected, or Alt, turn or move the view"),
     ("Page Up and Down", "Magnify the view that has the keyboard"),
+    (
+        "While flying (V)",
+        "W, A, S, D ahead and aside, E and Q up and down, the mouse turns, Shift is faster, the wheel sets the speed; Esc ends",
+    ),
 ];
 
 /// Whether it was closed.

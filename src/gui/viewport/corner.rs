@@ -31,7 +31,7 @@ impl Pane {
             self.grip(ui, &mut asked);
             self.title(ui, scenery, &mut asked);
             self.overlay_button(ui, scenery, &mut asked);
-            self.followed(ui, scenery, &mut asked);
+            self.company(ui, scenery, &mut asked);
         });
         // legible over whatever the view shows
         let color = color32(scenery.context.palette().label_back);
@@ -132,8 +132,8 @@ impl Pane {
         for (index, viewpoint) in saved.iter().enumerate() {
             ui.horizontal(|ui| {
                 if ui.button(&viewpoint.name).on_hover_text("Look from there").clicked() {
+                    self.part();
                     self.camera = Camera::of_viewpoint(viewpoint);
-                    self.follow = None;
                     asked.activate = true;
                     ui.close();
                 }
@@ -201,21 +201,23 @@ impl Pane {
         crate::gui::widgets::name_button(ui, &response, &name, false);
     }
 
-    /// Which body the view follows; a click lets it go.
-    fn followed(&mut self, ui: &mut Ui, scenery: &Scenery<'_>, asked: &mut Asked) {
-        let Some(name) = self.follow.and_then(|follow| scenery.shown.name(follow.key)) else { return };
-        let button = ui.add(Button::new(format!("follows {name} ×")).frame_when_inactive(false));
-        if button.on_hover_text("The view moves with this body. Click: no longer (Shift+F)").clicked() {
-            self.follow = None;
+    /// What the view goes along with, or that it flies; a click ends it.
+    fn company(&mut self, ui: &mut Ui, scenery: &Scenery<'_>, asked: &mut Asked) {
+        let going = self.company.and_then(|company| Some(company.words(scenery.shown.name(company.key)?)));
+        let Some(words) = self.flying.map(|flying| flying.words()).or(going) else { return };
+        let button = ui.add(Button::new(words).frame_when_inactive(false));
+        if button.on_hover_text("How the view moves. Click: no longer").clicked() {
+            self.part();
             asked.activate = true;
         }
     }
 
     /// Right click in a view.
     pub(super) fn context_menu(response: &egui::Response, scenery: &Scenery<'_>) {
-        const COMMANDS: [Command; 9] = [
+        const COMMANDS: [Command; 10] = [
             Command::View(ViewCommand::FrameSelection),
             Command::View(ViewCommand::Follow),
+            Command::View(ViewCommand::LookFromBody),
             Command::View(ViewCommand::FrameAll),
             Command::Window(WindowCommand::Rename),
             Command::Session(SessionCommand::Duplicate),

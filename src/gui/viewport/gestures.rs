@@ -76,6 +76,9 @@ impl Pane {
         rect: Rect,
         scenery: &Scenery<'_>,
     ) -> (Option<Hover>, Option<Handles>) {
+        if self.go_flying(ui, response, scenery) {
+            return (None, None);
+        }
         self.move_camera(ui, response, rect);
         let viewport = scenery.input(self, rect, ui.pixels_per_point()).viewport;
         self.keys(ui, response, scenery, viewport);

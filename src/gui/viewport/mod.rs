@@ -1,9 +1,12 @@
 //! The views: one, two or four cameras on the same scene, each with its own overlays.
 
 mod canvas;
+mod company;
 mod corner;
+mod flying;
 mod gestures;
 mod gizmo;
+mod linking;
 mod manipulate;
 mod pane;
 
@@ -24,7 +27,7 @@ use crate::view::{
 
 pub use canvas::Canvas;
 use gestures::Gestures;
-use pane::{Following, Pane};
+use pane::Pane;
 
 /// How many views are shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -41,6 +44,7 @@ pub enum Layout {
 pub struct Remembered {
     layout: Layout,
     snapping: bool,
+    linked: bool,
     /// Ids of the overlays shown, view by view.
     overlays: Vec<Vec<String>>,
 }
@@ -53,6 +57,8 @@ pub struct Views {
     /// What the layout was before one view was maximised.
     before_maximized: Layout,
     pub snapping: bool,
+    /// Whether the views along axes are moved and magnified together.
+    pub linked: bool,
     pub tool: Tool,
     /// Whether handles lie along the axes of the body, not of the world.
     pub local_axes: bool,
@@ -96,6 +102,7 @@ impl Scenery<'_> {
             theme: self.context.theme,
             selection: self.context.session.selection().keys(),
             hovered: None,
+            inside: pane.company.and_then(company::Company::inside),
             highlighted: self.highlighted.as_deref(),
         }
     }
@@ -113,6 +120,7 @@ impl Views {
             active: 0,
             before_maximized: Layout::Four,
             snapping: remembered.snapping,
+            linked: remembered.linked,
             tool: Tool::default(),
             local_axes: false,
             canvas,
@@ -125,6 +133,7 @@ impl Views {
         Remembered {
             layout: self.layout,
             snapping: self.snapping,
+            linked: self.linked,
             overlays: self.panes.iter().map(ids).collect(),
         }
     }
@@ -143,6 +152,13 @@ impl Views {
         self.panes[self.active].overlays
     }
 
+    /// The switches that are on, for marks in menus.
+    pub fn switched_on(&self) -> Vec<ViewCommand> {
+        let switches =
+            [(self.snapping, ViewCommand::ToggleSnapping), (self.linked, ViewCommand::ToggleLinked)];
+        switches.into_iter().filter_map(|(on, command)| on.then_some(command)).collect()
+    }
+
     /// How often a view was drawn anew since the start.
     pub fn redraws(&self) -> u64 {
         self.canvas.redraws()
@@ -152,7 +168,8 @@ impl Views {
     pub fn opened(&mut self) {
         for pane in &mut self.panes {
             pane.wants_framing = true;
-            pane.follow = None;
+            pane.company = None;
+            pane.flying = None;
             // what was being dragged belongs to the scene before
             pane.gestures = Gestures::default();
         }
@@ -203,7 +220,13 @@ impl Views {
         let rect = snapped(area, ui.pixels_per_point());
         let marked = index == self.active && self.layout != Layout::One;
         let Some(pane) = self.panes.get_mut(index) else { return false };
+        let (framed, before) = (pane.wants_framing, pane.middle());
         let outcome = pane.show(ui, rect, &scenery, (marked, index == self.active));
+        if framed {
+            self.share_widest();
+        } else {
+            self.share_if_moved(index, before);
+        }
         if outcome.activated || outcome.maximize {
             self.active = index;
         }
@@ -215,6 +238,15 @@ impl Views {
 
     /// Carries out a command about views.
     pub fn execute(&mut self, command: ViewCommand, context: &AppContext<'_>) {
+        let before = self.panes[self.active].middle();
+        if command.is_a_look() && self.panes[self.active].company.is_some_and(company::Company::is_inside) {
+            self.panes[self.active].part();
+        }
+        self.carry_out(command, context);
+        self.share_if_moved(self.active, before);
+    }
+
+    fn carry_out(&mut self, command: ViewCommand, context: &AppContext<'_>) {
         match command {
             ViewCommand::FrameAll => self.frame(context, None, Some(self.active)),
             ViewCommand::FrameSelection => {
@@ -229,6 +261,12 @@ impl Views {
                 }
             }
             ViewCommand::Follow => self.follow(context),
+            ViewCommand::LookFromBody => self.look_from_body(context),
+            ViewCommand::Fly => self.fly(context),
+            ViewCommand::ToggleLinked => {
+                self.linked = !self.linked;
+                self.share_widest();
+            }
             ViewCommand::Perspective => self.panes[self.active].look_from(None),
             ViewCommand::Along(axis) => self.panes[self.active].look_from(Some(axis)),
             ViewCommand::ToggleProjection => {
@@ -265,19 +303,6 @@ impl Views {
         }
     }
 
-    /// The active view follows what was selected last, or nothing any more.
-    fn follow(&mut self, context: &AppContext<'_>) {
-        let pane = &mut self.panes[self.active];
-        if pane.follow.take().is_some() {
-            return;
-        }
-        let bodies = |key: &NodeKey| context.shown.is_some_and(|shown| shown.body(*key).is_some());
-        match context.session.selection().keys().iter().rev().copied().find(bodies) {
-            Some(key) => pane.follow = Some(Following { key, last: None }),
-            None => context.outbox.send(Message::Warn("Select the body to follow first".to_owned())),
-        }
-    }
-
     fn set_layout(&mut self, layout: Layout) {
         if self.layout != Layout::One {
             self.before_maximized = self.layout;
@@ -291,9 +316,13 @@ impl Views {
         let frame = self.start.frame(context, shown);
         let Some(bounds) = bounds(&shown.scene, &frame, keys) else { return };
         for (index, pane) in self.panes.iter_mut().enumerate() {
-            if only.is_none_or(|only| only == index) {
+            let stays = only.is_none() && pane.company.is_some_and(company::Company::is_inside);
+            if only.is_none_or(|only| only == index) && !stays {
                 pane.camera.frame(padded(bounds, keys.is_some()), pane.aspect());
             }
+        }
+        if only.is_none() {
+            self.share_widest();
         }
     }
 
@@ -326,6 +355,7 @@ impl Views {
             pane.camera.target = place;
             pane.camera.height = pane.camera.height.min(reach);
         }
+        self.share_widest();
     }
 }
 

@@ -3,6 +3,8 @@
 use egui::{Align2, FontId, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo};
 use glam::DVec3;
 
+use super::company::Company;
+use super::flying::Flying;
 use super::gestures::{Gestures, Hover};
 use super::{Scenery, bounds, gizmo, look_name};
 use crate::gui::colors::{color32, tones};
@@ -18,7 +20,10 @@ pub struct Pane {
     pub overlays: OverlaySet,
     /// Look at all there is as soon as the view's size is known.
     pub wants_framing: bool,
-    pub(super) follow: Option<Following>,
+    pub(super) company: Option<Company>,
+    pub(super) flying: Option<Flying>,
+    /// Whether the pointer was told to stay in the window.
+    pub(super) holds_pointer: bool,
     /// What is being typed to save the present look under.
     pub(super) viewpoint_name: String,
     pub(super) gestures: Gestures,
@@ -26,14 +31,6 @@ pub struct Pane {
     size: egui::Vec2,
     /// The view as a widget, once it was shown.
     pub(super) id: Option<egui::Id>,
-}
-
-/// A body that a view moves along with.
-#[derive(Clone, Copy)]
-pub(super) struct Following {
-    pub key: NodeKey,
-    /// Where it was in the last picture; `None` before the first.
-    pub last: Option<DVec3>,
 }
 
 /// What a turn of a view asks of the others.
@@ -53,7 +50,9 @@ impl Pane {
             camera: Camera::default(),
             overlays: preset.overlay_set(),
             wants_framing: true,
-            follow: None,
+            company: None,
+            flying: None,
+            holds_pointer: false,
             viewpoint_name: String::new(),
             gestures: Gestures::default(),
             cache: ListCache::default(),
@@ -64,6 +63,11 @@ impl Pane {
 
     pub fn aspect(&self) -> f64 {
         f64::from(self.size.x.max(1.0)) / f64::from(self.size.y.max(1.0))
+    }
+
+    /// Points from the top to the bottom.
+    pub(super) fn points_high(&self) -> f64 {
+        f64::from(self.size.y.max(1.0))
     }
 
     /// `tools` says whether the choice of handles is shown in this view.
@@ -118,20 +122,6 @@ impl Pane {
         let asked = self.corners(ui, rect, scenery);
         let pressed = response.is_pointer_button_down_on() || response.clicked();
         Outcome { activated: pressed || asked.activate, maximize: asked.maximize, moved: asked.moved }
-    }
-
-    /// Moves the camera as far as the body went that it follows; at first, to that body.
-    fn go_along(&mut self, scenery: &Scenery<'_>) {
-        let Some(following) = &mut self.follow else { return };
-        let now = scenery.frame.bodies.iter().find(|body| body.key == following.key);
-        let place = now
-            .map(|body| body.position)
-            .or_else(|| scenery.shown.body(following.key).map(|body| body.position));
-        match (place, following.last.replace(place.unwrap_or_default())) {
-            (Some(place), Some(last)) => self.camera.target += place - last,
-            (Some(place), None) => self.camera.target = place,
-            (None, _) => self.follow = None,
-        }
     }
 
     pub fn look_from(&mut self, axis: Option<AxisView>) {

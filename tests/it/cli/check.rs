@@ -186,6 +186,23 @@ fn fix_writes_elsewhere_and_refuses_what_is_unclear() {
     assert_eq!(std::fs::read_to_string(bench.path("broken.xml")).unwrap(), "<PolyPhysicsXml");
 }
 
+/// Symptom: `check --fix -o FILE` replaced a file that was there. Expected: it asks for `--force`, as `export` and `record` do.
+/// Cause: it wrote without looking.
+#[test]
+fn fix_replaces_no_other_file_unasked() {
+    let bench = Bench::new();
+    bench.write("far.xml", BOUNCE.replace(r#"X="5" Y="5""#, r#"X="5" Y="50""#));
+    bench.write("notes.txt", "mine");
+    let fix = ["check", "--fix", "far.xml", "-o", "notes.txt"];
+    let outcome = bench.polyscene(&fix);
+    assert!(outcome.code == 2 && outcome.stderr.contains("--force"), "{}", outcome.stderr);
+    assert_eq!(std::fs::read_to_string(bench.path("notes.txt")).unwrap(), "mine");
+    let outcome = bench.polyscene(&[&fix[..], &["--force"]].concat());
+    assert_eq!(outcome.code, 0, "{}", outcome.stderr);
+    assert_eq!(bench.polyscene(&["check", "notes.txt"]).stdout, "");
+    assert_eq!(bench.polyscene(&["check", "--fix", "far.xml", "-o", "far.xml", "--force"]).code, 2);
+}
+
 #[test]
 fn tiles_and_masses_are_checked_too() {
     let bench = Bench::new();
