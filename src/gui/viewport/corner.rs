@@ -215,7 +215,7 @@ impl Pane {
     /// What the view goes along with, or that it flies; a click ends it.
     fn company(&mut self, ui: &mut Ui, scenery: &Scenery<'_>, asked: &mut Asked) {
         let going = self.company.and_then(|company| Some(company.words(scenery.shown.name(company.key)?)));
-        let Some(words) = self.flying.map(|flying| flying.words()).or(going) else { return };
+        let Some(words) = self.flying.map(super::flying::Flying::words).or(going) else { return };
         let button = ui.add(Button::new(words).frame_when_inactive(false));
         if button.on_hover_text("How the view moves. Click: no longer").clicked() {
             self.part();
