@@ -22,15 +22,28 @@ pub fn ungroup(given: &Given<'_>) -> Plan {
     Plan::new(format!("Ungroup {} objects", given.keys.len()), set(given, None))
 }
 
+/// Puts what is given into a group, or with `None` out of all; what is there already stays untouched.
+pub fn regroup(given: &Given<'_>, to: Option<&str>) -> Plan {
+    let edits = set(given, to);
+    let objects = if edits.len() == 1 { "object" } else { "objects" };
+    let label = match to {
+        Some(group) => format!("Move {} {objects} into {group}", edits.len()),
+        None => format!("Move {} {objects} out of groups", edits.len()),
+    };
+    Plan::new(label, edits)
+}
+
 fn set(given: &Given<'_>, group: Option<&str>) -> Vec<Edit> {
     let group = group.map(str::to_owned);
     let forces = given
         .forces()
         .into_iter()
+        .filter(|force| force.group != group)
         .map(|force| Edit::Force { key: force.key, change: ForceChange::Group(group.clone()) });
     let bodies = given
         .bodies()
         .into_iter()
+        .filter(|body| body.group != group)
         .map(|body| Edit::Body { key: body.key, change: BodyChange::Group(group.clone()) });
     forces.chain(bodies).collect()
 }

@@ -27,7 +27,7 @@ pub use copies::{duplicate, is_clear, paste};
 pub use extent::Extent;
 pub use formula::{Formula, Instance};
 pub use gap::{Gap, gap};
-pub use group::{group, rename_group, ungroup};
+pub use group::{group, regroup, rename_group, ungroup};
 pub use measure::Repair;
 pub use moving::moved;
 pub use place::round as round_size;

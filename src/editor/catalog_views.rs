@@ -3,7 +3,7 @@
 use super::Session;
 use super::command::{Key, Menu, Shortcut, ViewCommand, WindowCommand};
 use super::command_info::{CommandInfo, row};
-use crate::view::{AxisView, Tool};
+use crate::view::{AxisView, Pivot, Tool};
 
 /// The menus View and Help.
 pub(super) const VIEWING: &[CommandInfo] = &[
@@ -108,6 +108,14 @@ pub(super) const VIEWING: &[CommandInfo] = &[
     )
     .view(ViewCommand::ToggleSnapping)
     .keys(&[Shortcut::plain(Key::Char('G'))]),
+    row(
+        Menu::View,
+        3,
+        "select_through",
+        "Select through",
+        "Rectangles and outlines take also what is hidden behind other bodies",
+    )
+    .view(ViewCommand::ToggleThrough),
     row(Menu::View, 4, "tool_select", "No handles", "Shows no handles: drags select, or move a body")
         .view(ViewCommand::Tool(Tool::Select))
         .keys(&[Shortcut::plain(Key::Char('Q'))]),
@@ -128,7 +136,7 @@ pub(super) const VIEWING: &[CommandInfo] = &[
         4,
         "tool_size",
         "Size handles",
-        "Shows knobs that change a sphere's radius, a plate's sides or the map",
+        "Shows knobs that change a sphere's radius, a plate's sides or the map, or scale several things",
     )
     .view(ViewCommand::Tool(Tool::Size))
     .keys(&[Shortcut::plain(Key::Char('S'))]),
@@ -141,6 +149,30 @@ pub(super) const VIEWING: &[CommandInfo] = &[
     )
     .view(ViewCommand::ToggleLocalAxes)
     .keys(&[Shortcut::plain(Key::Char('L'))]),
+    row(
+        Menu::View,
+        4,
+        "pivot_middle",
+        "Pivot in the middle",
+        "Turns and scales several things about the mean of their centres",
+    )
+    .view(ViewCommand::Pivot(Pivot::Middle)),
+    row(
+        Menu::View,
+        4,
+        "pivot_last",
+        "Pivot in the last selected",
+        "Turns and scales several things about the one selected last",
+    )
+    .view(ViewCommand::Pivot(Pivot::Last)),
+    row(
+        Menu::View,
+        4,
+        "pivot_each",
+        "Pivot in each",
+        "Turns and scales every selected thing about its own centre",
+    )
+    .view(ViewCommand::Pivot(Pivot::Each)),
     row(Menu::View, 5, "show_accuracy", "Accuracy", "Shows speed against error of every method")
         .window(WindowCommand::ShowAccuracy),
     row(

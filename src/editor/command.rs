@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::scene::NumberStyle;
-use crate::view::{AxisView, Tool};
+use crate::view::{AxisView, Pivot, Tool};
 
 /// Every user action that needs no further data, by who carries it out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -118,6 +118,10 @@ pub enum ViewCommand {
     ToggleSnapping,
     /// What the handles of the selection do.
     Tool(Tool),
+    /// What several things are turned about, and grow from.
+    Pivot(Pivot),
+    /// Rectangles and outlines select what is hidden behind other bodies, too.
+    ToggleThrough,
     /// Handles along the axes of the body, or of the world.
     ToggleLocalAxes,
     /// The n-th of [`crate::view::OVERLAYS`], in the active view.

@@ -19,6 +19,9 @@ const NOTICEABLE: f64 = 1e-6;
 /// Overlap of stepped bodies that is part of the method, in radii of the smallest.
 const OF_STEPPED: f64 = 1e-3;
 
+/// What the place of the largest error takes, points.
+const MOST_AT: f32 = 130.0;
+
 /// What the badge says.
 struct Figures {
     energy: Option<f64>,
@@ -70,7 +73,8 @@ fn smallest_radius(context: &AppContext<'_>) -> f64 {
     radii.reduce(f64::min).unwrap_or(0.0)
 }
 
-pub fn show(ui: &mut Ui, context: &AppContext<'_>) {
+/// In a narrow window the errors alone, with `behind` points left for what comes next.
+pub fn show(ui: &mut Ui, context: &AppContext<'_>, behind: f32) {
     let frame = context.session.frame();
     let figures = Figures::of(context);
     if figures.is_noticeable() {
@@ -94,7 +98,7 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>) {
         context.outbox.send(Message::ShowEvents);
         context.outbox.act(Action::GoToEvent(jump.event));
     }
-    if let Some(jump) = jump {
+    if let Some(jump) = jump.filter(|_| ui.available_width() > MOST_AT + behind) {
         ui.label(RichText::new(format!("most at event {}", jump.event)).small().color(tones(ui).weak));
     }
     ui.add_space(10.0);

@@ -3,7 +3,7 @@
 use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 
 use crate::editor::{Addition, Command, SessionCommand, TravelCommand, ViewCommand};
-use crate::view::Tool;
+use crate::view::{Pivot, Tool};
 
 /// Draws a command's icon into a square; `false` if it has none.
 pub fn paint(painter: &Painter, square: Rect, command: Command, color: Color32) -> bool {
@@ -67,6 +67,7 @@ pub fn paint(painter: &Painter, square: Rect, command: Command, color: Color32) 
             }
         }
         Command::View(ViewCommand::Tool(tool)) => paint_tool(&pen, tool),
+        Command::View(ViewCommand::Pivot(pivot)) => paint_pivot(&pen, pivot),
         Command::View(ViewCommand::ToggleLocalAxes) => {
             pen.polyline(&[(0.12, 0.3), (0.35, 0.85), (0.92, 0.62)]);
             pen.polyline(&[(0.35, 0.85), (0.55, 0.12)]);
@@ -74,6 +75,22 @@ pub fn paint(painter: &Painter, square: Rect, command: Command, color: Color32) 
         _ => return false,
     }
     true
+}
+
+/// Two things, with a ring about what they are turned about.
+fn paint_pivot(pen: &Pen<'_>, pivot: Pivot) {
+    let rings: &[(f32, f32)] = match pivot {
+        Pivot::Middle => &[(0.5, 0.5)],
+        Pivot::Last => &[(0.78, 0.22)],
+        Pivot::Each => &[(0.22, 0.78), (0.78, 0.22)],
+    };
+    let side = pen.square.width();
+    for (x, y) in [(0.22, 0.78), (0.78, 0.22)] {
+        pen.painter.circle_filled(pen.at(x, y), 0.12 * side, pen.color);
+    }
+    for (x, y) in rings {
+        pen.painter.circle_stroke(pen.at(*x, *y), 0.22 * side, pen.line());
+    }
 }
 
 /// What the handles of a selection do.

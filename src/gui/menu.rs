@@ -10,6 +10,9 @@ use crate::editor::{
 use crate::scene::shown_path;
 use crate::view::OVERLAYS;
 
+/// Height of an entry, points.
+const ROW: f32 = 19.0;
+
 /// Overlays of the active view and what is switched on in the views, for the marks in the View menu.
 pub fn show(
     ui: &mut Ui,
@@ -21,6 +24,9 @@ pub fn show(
         for menu in Menu::ALL {
             ui.menu_button(menu.label(), |ui| {
                 ui.set_min_width(230.0);
+                // the longest menu has to fit a window of 800 points
+                ui.spacing_mut().item_spacing.y = 0.0;
+                ui.spacing_mut().interact_size.y = ROW;
                 rows(ui, context, menu, switched_on);
                 match menu {
                     Menu::File => files(ui, context),

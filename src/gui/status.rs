@@ -19,21 +19,26 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>, pace: &Pace) {
     let frame = context.session.frame();
     ui.horizontal_centered(|ui| {
         ui.spacing_mut().item_spacing.x = 5.0;
-        item(ui, "t", &format!("{:.6} s", frame.time), 92.0, "Model time");
-        item(ui, "Δt", &step_text(frame), 82.0, "Number of the Δt looked at, and how far it is open");
-        let help = "Event of this Δt looked at, and how many it has; … while it is not finished";
+        let frame_time = format!("{:.6} s", frame.time);
+        item(ui, "t", &frame_time, 92.0, BADGE, "Model time");
+        let help = "Number of the Δt looked at, and how far it is open";
+        item(ui, "Δt", &step_text(frame), 82.0, BADGE, help);
         if frame.method != Method::Exact {
-            item(ui, "method", frame.method.name(), 40.0, frame.method.meaning());
+            item(ui, "method", frame.method.name(), 40.0, BADGE, frame.method.meaning());
         }
-        item(ui, "event", &event_text(frame), 62.0, help);
-        item(ui, "in all", &numbers::count(frame.event_count), 46.0, "Events since the start");
-        item(ui, "bodies", &body_text(frame), 56.0, "Moving + static bodies in the simulation");
+        let help = "Event of this Δt looked at, and how many it has; … while it is not finished";
+        item(ui, "event", &event_text(frame), 62.0, BADGE, help);
+        item(ui, "in all", &numbers::count(frame.event_count), 46.0, BADGE, "Events since the start");
+        item(ui, "bodies", &body_text(frame), 56.0, BADGE, "Moving + static bodies in the simulation");
         let per_s = numbers::significant(frame.events_per_s, 3);
-        item(ui, "events/s", &per_s, 48.0, "Events per second of computing, smoothed");
-        badge::show(ui, context);
+        item(ui, "events/s", &per_s, 48.0, BADGE, "Events per second of computing, smoothed");
+        let behind = if frame.stepped.is_some() { STEPPED } else { 0.0 };
+        badge::show(ui, context, behind);
         stepped(ui, context);
-        item(ui, "step", &numbers::duration(frame.step_wall_s), 58.0, "Computing time of the last Δt");
-        item(ui, "frame", &numbers::duration(pace.frame_s), 58.0, "Time that the window last took to draw");
+        let step = numbers::duration(frame.step_wall_s);
+        item(ui, "step", &step, 58.0, 0.0, "Computing time of the last Δt");
+        let drawing = numbers::duration(pace.frame_s);
+        item(ui, "frame", &drawing, 58.0, 0.0, "Time that the window last took to draw");
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| version(ui, context));
     });
 }
@@ -42,7 +47,9 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>, pace: &Pace) {
 fn stepped(ui: &mut Ui, context: &AppContext<'_>) {
     let Some(stepped) = context.session.frame().stepped else { return };
     let (count, since) = (stepped.count, numbers::significant(stepped.since, 3));
-    let text = format!("{} {} stepped since {since} s", numbers::count(count as u64), bodies_word(count));
+    let count_text = numbers::count(count as u64);
+    let long = format!("{count_text} {} stepped since {since} s", bodies_word(count));
+    let text = if ui.available_width() < STEPPED { format!("{count_text} stepped") } else { long };
     let help = format!(
         "Bodies that touch too often for single events go on in steps of {}, marked by diamonds in the views",
         numbers::duration(stepped.step)
@@ -50,6 +57,9 @@ fn stepped(ui: &mut Ui, context: &AppContext<'_>) {
     let color = color32(context.palette().stepped);
     ui.label(RichText::new(text).small().color(color)).on_hover_text(help);
 }
+
+/// What all words about stepped bodies take, points.
+const STEPPED: f32 = 190.0;
 
 fn bodies_word(count: usize) -> &'static str {
     if count == 1 { "body" } else { "bodies" }
@@ -72,9 +82,12 @@ fn version(ui: &mut Ui, context: &AppContext<'_>) {
 /// Room for the name of a number, points.
 const NAME_WIDTH: f32 = 40.0;
 
-/// A number with its name, where there is room for it.
-fn item(ui: &mut Ui, name: &str, value: &str, width: f32, help: &str) {
-    if ui.available_width() < width + NAME_WIDTH {
+/// What the errors take, which matter more than what stands before them, points.
+const BADGE: f32 = 400.0;
+
+/// A number with its name, where there is room for it and for what comes `behind`.
+fn item(ui: &mut Ui, name: &str, value: &str, width: f32, behind: f32, help: &str) {
+    if ui.available_width() < width + NAME_WIDTH + behind {
         return;
     }
     let weak = tones(ui).weak;

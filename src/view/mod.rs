@@ -29,12 +29,13 @@ pub use color::{Color, Palette, Theme, body_color};
 pub use draw_list::{Align, Arrow, DrawList, Label, Line, Plate, Point, PointShape, Sphere, Stroke};
 pub use format::{number, with_unit};
 pub use gizmo::{
-    Axis, Freedom, Grip, Guide, Handle, Knob, Neighbour, Pull, Sides, Subject, Tool, Vector, VectorKind,
-    aligned, fine_step, handle_at, knobs, pull, snap, snap_angle, snap_step, snap_value, touching,
+    Axis, Freedom, Grip, Guide, Handle, Knob, Neighbour, Pivot, Pull, Sides, Subject, Tool, Vector,
+    VectorKind, aligned, fine_step, handle_at, knobs, pull, snap, snap_angle, snap_step, snap_value,
+    touching,
 };
 pub use input::{ViewInput, Viewport};
 pub use list_cache::ListCache;
 pub use overlays::{OVERLAYS, Overlay, OverlaySet, velocity_scale};
-pub use pick::{Hit, pick, pick_rect};
+pub use pick::{Hit, pick, pick_outline, pick_rect};
 pub use see_through::is_see_through;
 pub use views::{VIEWS, ViewPreset};

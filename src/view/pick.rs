@@ -41,23 +41,54 @@ pub fn pick(input: &ViewInput<'_>, ndc: DVec2) -> Vec<Hit> {
     all
 }
 
-/// Bodies and forces whose centre is seen inside the rectangle of two corners, in file order.
-pub fn pick_rect(input: &ViewInput<'_>, corner_a: DVec2, corner_b: DVec2) -> Vec<NodeKey> {
-    let stage = Stage::new(input);
+/// Bodies and forces whose centre is seen inside the rectangle of two corners, in file order. Without `through`, no
+/// body whose centre is behind another one.
+pub fn pick_rect(input: &ViewInput<'_>, corner_a: DVec2, corner_b: DVec2, through: bool) -> Vec<NodeKey> {
     let (min, max) = (corner_a.min(corner_b), corner_a.max(corner_b));
-    let inside = |place: DVec3| {
-        stage.camera.project(place, input.viewport.aspect()).is_some_and(|at| {
-            let at = at.truncate();
-            at.cmpge(min).all() && at.cmple(max).all()
-        })
+    pick_where(input, through, |at| at.cmpge(min).all() && at.cmple(max).all())
+}
+
+/// As [`pick_rect`], inside a closed outline; where it crosses itself, the even-odd rule says what is inside.
+pub fn pick_outline(input: &ViewInput<'_>, outline: &[DVec2], through: bool) -> Vec<NodeKey> {
+    pick_where(input, through, |at| is_inside(outline, at))
+}
+
+/// Whether a half-line to the right crosses the outline an odd number of times.
+fn is_inside(outline: &[DVec2], at: DVec2) -> bool {
+    let ends = outline.iter().zip(outline.iter().cycle().skip(1));
+    let crosses = |(a, b): &(&DVec2, &DVec2)| {
+        let share = (at.y - a.y) / (b.y - a.y);
+        (a.y > at.y) != (b.y > at.y) && at.x < a.x + share * (b.x - a.x)
     };
+    ends.filter(crosses).count() % 2 == 1
+}
+
+fn pick_where(input: &ViewInput<'_>, through: bool, within: impl Fn(DVec2) -> bool) -> Vec<NodeKey> {
+    let stage = Stage::new(input);
+    let aspect = input.viewport.aspect();
+    let inside = |place: DVec3| stage.camera.project(place, aspect).is_some_and(|at| within(at.truncate()));
     let bodies = stage
         .bodies
         .iter()
         .filter(|posed| !stage.is_see_through(posed) && inside(posed.position))
+        .filter(|posed| through || is_in_sight(&stage, posed))
         .map(|posed| posed.body.key);
     let forces = forces::visible(input.scene).filter(|(_, place)| inside(*place)).map(|(force, _)| force.key);
     bodies.chain(forces).collect()
+}
+
+/// Whether nothing is seen before a body in the direction of its centre.
+fn is_in_sight(stage: &Stage<'_>, posed: &Posed<'_>) -> bool {
+    let aspect = stage.input.viewport.aspect();
+    let Some(at) = stage.camera.project(posed.position, aspect) else { return false };
+    let ray = stage.camera.ray(at.truncate(), aspect);
+    let Some(own) = ray_body(stage, &ray, posed) else { return true };
+    let before = |other: &Posed<'_>| {
+        other.body.key != posed.body.key
+            && !stage.is_see_through(other)
+            && ray_body(stage, &ray, other).is_some_and(|distance| distance < own)
+    };
+    !stage.bodies.iter().any(before)
 }
 
 fn markers_at(stage: &Stage<'_>, ndc: DVec2) -> Vec<Hit> {

@@ -47,9 +47,11 @@ fn act(bench: &mut Bench, what: usize, how: u8, gesture: u64) {
         Some(2) => Pull::Turn { axis: DVec3::Y, angle: by },
         Some(3) => Pull::Radius(by.abs() + 0.01),
         Some(4) => Pull::Sides { half: [by.abs() + 0.5, 1.0], shift: DVec3::X },
+        Some(5) => Pull::Scale(by.abs() + 0.1),
         _ => Pull::Vector(DVec3::new(by, by, 0.0)),
     };
     let Some(drag) = Drag::of_selection(&bench.session, Gesture(gesture)) else { return };
+    let drag = drag.each_by_itself(how.is_multiple_of(2));
     let pivot = drag.origin();
     bench.act(drag.pull(&pull, pivot));
     bench.act(drag.pull(&pull, pivot + DVec3::Z));
@@ -76,7 +78,7 @@ proptest! {
 
     #[test]
     fn undo_goes_back_to_the_files_bytes_and_redo_to_the_end(
-        steps in prop::collection::vec((0..COMMANDS.len() + 6, any::<u8>()), 1..60),
+        steps in prop::collection::vec((0..COMMANDS.len() + 7, any::<u8>()), 1..60),
     ) {
         let mut bench = Bench::open();
         let start = bench.bytes();

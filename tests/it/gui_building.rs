@@ -1,11 +1,12 @@
 //! Building in the window, by accessible names: parts, arrays, formulas, groups, problems; a whole scene in few actions.
 
 use egui::accesskit::Role;
-use egui::{Event, Key, Modifiers};
+use egui::{Event, Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use polyscene::design::{TOOLS, gap, troubles};
 use polyscene::scene::{Document, Motion};
 
+use super::editor_support::SCENE;
 use super::gui_support::Window;
 
 impl Window {
@@ -267,14 +268,50 @@ fn lengths_of_a_dialog_can_be_dragged_from_any_value() {
     window.palette("parts: plate facing");
     window.type_number("Width", "10");
     let field = window.harness.get_by_role_and_label(Role::SpinButton, "Width").rect().center();
-    let way =
-        [field, field + egui::vec2(3.0, 0.0), field + egui::vec2(6.0, 0.0), field + egui::vec2(9.0, 0.0)];
+    let way = [field, field + vec2(3.0, 0.0), field + vec2(6.0, 0.0), field + vec2(9.0, 0.0)];
     window.drag(&way, egui::PointerButton::Primary, Modifiers::NONE);
     window.click("Create");
     let polyscene::scene::Shape::Plane { half_x, .. } = window.scene().bodies[0].shape else {
         panic!("a plate");
     };
     assert!(half_x > 5.0 && half_x < 6.0 && half_x.fract() != 0.0, "{half_x}");
+}
+
+/// Drags one row of the tree onto another.
+fn drag_row(window: &mut Window, from: &str, to: &str) {
+    let row = |label: &str| window.harness.get_by_role_and_label(Role::TreeItem, label).rect();
+    let (from, to) = (row(from).left_center() + vec2(60.0, 0.0), row(to).left_center() + vec2(60.0, 0.0));
+    window.drag(&[from, from.lerp(to, 0.5), to, to], egui::PointerButton::Primary, Modifiers::NONE);
+}
+
+#[test]
+fn rows_are_dragged_into_groups_and_out_of_them() {
+    let mut window = Window::bytes(SCENE.as_bytes());
+    window.click_role(Role::TreeItem, "30");
+    window.key_with(Modifiers::COMMAND, Key::G);
+    drag_row(&mut window, "7", "group");
+    assert_eq!(window.body("7").group.as_deref(), Some("group"));
+    let undo = window.harness.state().session().undo_label().map(str::to_owned);
+    assert_eq!(undo.as_deref(), Some("Move 1 object into group"));
+    // onto what is in the group, and with it what else is selected
+    window.click_role(Role::TreeItem, "8");
+    window.click_with(Role::TreeItem, "1", Modifiers::COMMAND);
+    drag_row(&mut window, "8", "7");
+    assert_eq!(window.body("8").group.as_deref(), Some("group"));
+    assert_eq!(window.scene().forces[0].group.as_deref(), Some("group"));
+    window.key_with(Modifiers::COMMAND, Key::Z);
+    assert_eq!(window.body("8").group, None, "both in one step");
+    drag_row(&mut window, "7", "Static bodies");
+    assert_eq!(window.body("7").group, None, "a heading takes it out");
+    // a group into another one, and not into itself
+    window.click_role(Role::TreeItem, "7");
+    window.key_with(Modifiers::COMMAND, Key::G);
+    drag_row(&mut window, "group 2", "group");
+    assert_eq!(window.body("7").group.as_deref(), Some("group/group 2"));
+    drag_row(&mut window, "group", "group 2");
+    assert_eq!(window.body("30").group.as_deref(), Some("group"));
+    drag_row(&mut window, "group 2", "Forces");
+    assert_eq!(window.body("7").group.as_deref(), Some("group 2"));
 }
 
 #[test]

@@ -170,6 +170,41 @@ fn knobs_change_sizes() {
 }
 
 #[test]
+fn several_are_scaled_about_the_pivot_that_is_chosen() {
+    let mut window = scene();
+    window.click_role(Role::TreeItem, "7");
+    window.click_with(Role::TreeItem, "8", Modifiers::COMMAND);
+    window.key(Key::S);
+    let radius = |window: &Window, label: &str| match window.body(label).shape {
+        Shape::Sphere { radius } => radius,
+        _ => panic!("no sphere"),
+    };
+    window.type_into_knob("Scale", "Top", "1/2");
+    assert_eq!((window.body("7").position.x, window.body("8").position.x), (4.0, 6.0), "about the middle");
+    assert_eq!((radius(&window, "7"), radius(&window, "8")), (0.25, 0.25));
+    assert_eq!(window.undo_label(), Some("Resize 2 objects"));
+    window.key_with(Modifiers::COMMAND, Key::Z);
+    assert_eq!(window.undo_label(), None, "one step");
+
+    window.click("Pivot in the middle");
+    window.click_role(Role::Button, "Pivot in the last selected");
+    window.type_into_knob("Scale", "Top", "2");
+    assert_eq!(window.body("8").position, dvec3(7.0, 3.0, 3.0), "the last stays");
+    assert_eq!((window.body("7").position, radius(&window, "7")), (dvec3(-1.0, 3.0, 3.0), 1.0));
+    window.key_with(Modifiers::COMMAND, Key::Z);
+
+    window.menu("View", "Pivot in each");
+    window.type_into_knob("Scale", "Top", "2");
+    assert_eq!(window.body("7").position, DVec3::splat(3.0), "each where it is");
+    assert_eq!((radius(&window, "7"), radius(&window, "8")), (1.0, 1.0));
+    window.key(Key::E);
+    window.type_into_knob("Turn about y", "Top", "90");
+    assert_eq!(window.body("8").position, dvec3(7.0, 3.0, 3.0), "turned where it is");
+    let Motion::Dynamic { velocity, .. } = window.body("8").motion else { panic!("it moves") };
+    assert!(velocity.distance(dvec3(0.0, 0.0, -1.0)) < 1e-15, "{velocity}");
+}
+
+#[test]
 fn the_tips_of_arrows_set_velocity_and_gravity() {
     let mut window = scene();
     window.click_role(Role::TreeItem, "7");

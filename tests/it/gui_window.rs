@@ -333,3 +333,16 @@ fn what_a_small_window_shows_can_be_reached() {
     let button = window.harness.get_by_role_and_label(Role::Button, "Push apart").rect();
     assert!(button.right() < edge, "{button:?} beyond {edge}");
 }
+
+/// Symptom: at 800 × 500 the errors in the status bar ran out of its right edge. Expected: they are whole, what stands before
+/// them gives way. Cause: only the numbers looked at the room there is.
+#[test]
+fn the_smallest_window_shows_the_errors_whole() {
+    let whole = egui::Rect::from_min_size(egui::Pos2::ZERO, vec2(800.0, 500.0));
+    let mut window = Window::sample("bin");
+    window.harness.set_size(whole.size());
+    window.harness.run_steps(4);
+    (0..3).for_each(|_| window.key(Key::N));
+    let errors = window.harness.get_by_label_contains("Errors: ").rect();
+    assert!(whole.contains_rect(errors), "{errors:?}");
+}

@@ -55,7 +55,7 @@ mod gui_accuracy;
 mod gui_badge;
 // Building in the window: parts, formulas, groups, problems; a whole scene in few actions.
 mod gui_building;
-// Views: saved viewpoints, following a body.
+// Views: saved viewpoints, following a body, looking from one, flying, linked views.
 mod gui_cameras;
 // Panels of the window: moved, tabbed, given room, reset.
 mod gui_dock;
@@ -75,6 +75,8 @@ mod gui_picture;
 mod gui_real;
 // The window's content without a window.
 mod gui_support;
+// Selecting in the views by drawing: rectangles, outlines, through and not.
+mod gui_selecting;
 // The timeline, the ledger, bookmarks.
 mod gui_timeline;
 // The text of the file beside the picture.

@@ -131,6 +131,30 @@ fn a_ring_turns_as_far_as_the_pointer_goes_round_it() {
 }
 
 #[test]
+fn a_corner_of_the_frame_scales_by_its_way_from_the_pivot() {
+    for camera in cameras() {
+        let several = Subject { sides: Some(Sides::Several), ..subject(Tool::Size, camera.target) };
+        let all = knobs(&several, &camera, SIZE);
+        assert_eq!(all.len(), 5, "four corners and the frame: {all:?}");
+        assert!(
+            all.iter().all(|knob| handle_at(&all, knob.grab_point()) == Some(Handle::Scale) || !knob.closed)
+        );
+        let corner = (camera.right() + camera.up()) * (0.1 * camera.height);
+        let at = |factor: f64| camera.target + corner * factor;
+        for factor in [0.25, 1.0, 1.75] {
+            let Some(Pull::Scale(found)) = pulled(&camera, &several, Handle::Scale, at(1.0), at(factor))
+            else {
+                panic!("no scale")
+            };
+            assert!((found - factor).abs() < 1e-6, "{found} is not {factor}");
+        }
+        let grip = Grip::take(Handle::Scale, several, &camera, SIZE, seen(&camera, at(1.0))).unwrap();
+        let snapped = grip.snapped(Pull::Scale(1.23), &camera, DVec3::ZERO, 0.5);
+        assert_eq!(snapped, Pull::Scale(1.2));
+    }
+}
+
+#[test]
 fn sizes_follow_their_sides() {
     let [camera, ..] = cameras();
     let pivot = camera.target;
@@ -186,6 +210,9 @@ fn typed_numbers_take_the_pointers_place() {
     let radius = Grip { handle: Handle::Radius, ..grip };
     assert_eq!(radius.typed(&camera, 0.75, 0.0), Some(Pull::Radius(0.75)));
     assert_eq!(radius.typed(&camera, -1.0, 0.0), None);
+    let scale = Grip { handle: Handle::Scale, ..radius };
+    assert_eq!(scale.typed(&camera, 0.5, 0.0), Some(Pull::Scale(0.5)));
+    assert_eq!(scale.typed(&camera, 0.0, 0.0), None);
 }
 
 fn ball(id: i64, position: DVec3, radius: f64) -> Body {

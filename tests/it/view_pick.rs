@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use polyscene::scene::{Body, Motion, NodeKey, Scene, Shape, rotation_matrix};
-use polyscene::view::{Camera, Projection, Ray, ViewInput, Viewport, pick, pick_rect};
+use polyscene::view::{Camera, Projection, Ray, ViewInput, Viewport, pick, pick_outline, pick_rect};
 use proptest::prelude::{Strategy, proptest};
 
 use crate::view_scenes::{ball, body, closed_box, empty, frame, furnished_box, plate};
@@ -131,7 +131,7 @@ fn hidden_bodies_are_passed_over() {
     scene.bodies.push(ball(2, dvec3(5.0, 5.0, 5.0), 0.5));
     let input = ViewInput::new(&scene, front_camera(), viewport());
     assert_eq!(keys(&input, DVec2::ZERO), [2]);
-    assert_eq!(pick_rect(&input, DVec2::NEG_ONE, DVec2::ONE), [NodeKey(2)]);
+    assert_eq!(pick_rect(&input, DVec2::NEG_ONE, DVec2::ONE, true), [NodeKey(2)]);
 }
 
 #[test]
@@ -195,8 +195,27 @@ fn a_rectangle_takes_what_has_its_centre_in_it() {
     scene.bodies.push(body(4, dvec3(5.0, 9.9, 5.0), Motion::Static, Shape::Sphere { radius: 1.0 }));
     let input = ViewInput::new(&scene, front_camera(), viewport());
     let at = |x: f64, y: f64| input.camera.project(dvec3(x, y, 5.0), viewport().aspect()).unwrap().truncate();
-    assert_eq!(pick_rect(&input, at(1.0, 4.0), at(6.0, 6.0)), [NodeKey(1), NodeKey(2)]);
-    assert_eq!(pick_rect(&input, at(6.0, 6.0), at(1.0, 4.0)), [NodeKey(1), NodeKey(2)]);
+    assert_eq!(pick_rect(&input, at(1.0, 4.0), at(6.0, 6.0), true), [NodeKey(1), NodeKey(2)]);
+    assert_eq!(pick_rect(&input, at(6.0, 6.0), at(1.0, 4.0), true), [NodeKey(1), NodeKey(2)]);
+}
+
+#[test]
+fn an_outline_takes_what_it_winds_around_and_in_sight_alone_if_asked() {
+    let mut scene = empty();
+    scene.bodies.push(ball(1, dvec3(2.0, 5.0, 5.0), 0.5));
+    scene.bodies.push(ball(2, dvec3(5.0, 5.0, 5.0), 0.5));
+    scene.bodies.push(ball(3, dvec3(5.1, 5.0, 2.0), 0.5));
+    let input = ViewInput::new(&scene, front_camera(), viewport());
+    let at = |(x, y)| input.camera.project(dvec3(x, y, 5.0), viewport().aspect()).unwrap().truncate();
+    // a U whose arms go around 1 and 2, with nothing between them
+    let u = [(1.0, 8.0), (1.0, 2.0), (6.0, 2.0), (6.0, 8.0), (4.0, 8.0), (4.0, 3.0), (3.0, 3.0), (3.0, 8.0)];
+    let outline = u.map(at);
+    let keys = [1, 2, 3].map(NodeKey);
+    assert_eq!(pick_outline(&input, &outline, true), keys);
+    assert_eq!(pick_outline(&input, &outline, false), keys[..2], "3 is behind 2");
+    let arm = [(3.0, 8.0), (3.0, 3.0), (4.0, 3.0), (4.0, 8.0)].map(at);
+    assert_eq!(pick_outline(&input, &arm, true), []);
+    assert_eq!(pick_outline(&input, &[], true), []);
 }
 
 #[test]

@@ -16,7 +16,7 @@ pub enum HelpPage {
 const WINDOW: [(&str, &str); 9] = [
     (
         "Scene",
-        "Map, simulation, forces and bodies. Click selects, Ctrl adds, Shift takes a range; double click renames. The eye hides, the lock protects.",
+        "Map, simulation, forces and bodies. Click selects, Ctrl adds, Shift takes a range; double click renames. Drag rows onto a group, or out of it onto a heading. The eye hides, the lock protects.",
     ),
     (
         "Inspector",
@@ -52,10 +52,11 @@ const WINDOW: [(&str, &str); 9] = [
     ),
 ];
 
-const GESTURES: [(&str, &str); 15] = [
+const GESTURES: [(&str, &str); 16] = [
     ("Click", "Select; again at the same place: what lies behind"),
     ("Ctrl or Shift + click", "Add to the selection or take out"),
-    ("Drag", "Select by a rectangle"),
+    ("Drag", "Select by a rectangle; Ctrl or Shift adds"),
+    ("Alt + drag", "Select by an outline drawn by hand, which may begin on a body; Ctrl or Shift adds"),
     (
         "Drag a handle or a ball",
         "Move, turn or size what is selected. Esc cancels, Shift is fine, Ctrl snaps",

@@ -14,7 +14,8 @@ use crate::scene::{Edit, Force, ForceChange, ForceKind, NodeKey};
 pub fn show(ui: &mut Ui, context: &AppContext<'_>, shown: &Shown, keys: &[NodeKey], texts: &mut TextFields) {
     let forces: Vec<&Force> = keys.iter().filter_map(|key| shown.force(*key)).collect();
     if let [force] = forces.as_slice() {
-        identity(ui, context, force, texts);
+        // a body may be shown with it, whose fields have the same names
+        ui.push_id(force.key, |ui| identity(ui, context, force, texts));
     }
     section(ui, "Values");
     Grid::new("force values").num_columns(3).spacing([6.0, 3.0]).show(ui, |ui| {

@@ -1,7 +1,9 @@
 //! The scene tree: map, simulation, forces and bodies in groups, with filter, marks and renaming.
 
+mod dropping;
 mod named;
 mod rows;
+mod signs;
 
 use std::collections::BTreeSet;
 
@@ -16,6 +18,7 @@ use crate::editor::{Action, SessionCommand};
 use crate::record::Frame;
 use crate::scene::{BodyChange, Edit, ForceChange, NodeKey};
 use crate::sim::ContactState;
+use dropping::Target;
 pub use rows::force_kind;
 use rows::{Group, Row, collect};
 
@@ -139,6 +142,7 @@ impl Tree {
         );
         if rest.is_positive() {
             let free = ui.interact(rest, ui.scope_id().with("below rows"), egui::Sense::click());
+            self.take_drop(ui, context, &free, Target(None));
             if free.clicked() {
                 context.outbox.command(SessionCommand::SelectNone);
             }

@@ -4,9 +4,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use egui::{Rect, Sense, Ui, pos2};
 
+use super::dropping::{Dragged, Target};
 use super::rows::{
-    Chip, INDENT, Looks, Marked, Marks, Row, draw_name, mark_buttons, mark_edit, row_space, triangle,
+    INDENT, Looks, Marked, Marks, Row, draw_name, mark_buttons, mark_edit, row_space, triangle,
 };
+use super::signs::Chip;
 use super::{Renamed, Tree};
 use crate::editor::Action;
 use crate::gui::context::{AppContext, Message, Shown};
@@ -150,6 +152,8 @@ impl Tree {
             context.outbox.act(Action::Edit { edit: Edit::All(edits.collect()), gesture: None });
         }
         response.context_menu(|ui| super::rows::context_menu(ui, context));
+        response.dnd_set_drag_payload(Dragged::Group(named.path.clone()));
+        self.take_drop(ui, context, &response, Target(Some(named.path.clone())));
         if toggle.clicked() {
             if !self.open_named.remove(&named.path) {
                 self.open_named.insert(named.path.clone());

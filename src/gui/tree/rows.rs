@@ -4,7 +4,9 @@ use std::collections::BTreeSet;
 
 use egui::{Align2, FontId, Rect, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
+use super::dropping::{Dragged, Target};
 use super::named::{self, Named};
+use super::signs::{Chip, paint_contact};
 use super::{Renamed, Tree, look_at};
 use crate::editor::{self, Action, Command, Place, SessionCommand, ViewCommand, WindowCommand};
 use crate::gui::colors::{color32, tones};
@@ -161,7 +163,9 @@ impl Tree {
         match row {
             Row::Place(place) => place_row(ui, context, *place),
             Row::Group { group, count, shown, open } => {
-                if group_row(ui, *group, *count, *shown, *open) {
+                let response = group_row(ui, *group, *count, *shown, *open);
+                self.take_drop(ui, context, &response, Target(None));
+                if response.clicked() {
                     match self.closed.iter().position(|closed| closed == group) {
                         Some(index) => drop(self.closed.remove(index)),
                         None => self.closed.push(*group),
@@ -236,6 +240,8 @@ impl Tree {
             context.outbox.act(Action::Edit { edit: mark_edit(shown, key, mark), gesture: None });
         }
         response.context_menu(|ui| context_menu(ui, context));
+        response.dnd_set_drag_payload(Dragged::of(context, key));
+        self.take_drop(ui, context, &response, Target::beside(shown, key));
         if contact != ContactState::Flight {
             let (state, meaning) = (contact.name(), contact.meaning());
             response.clone().on_hover_text(format!("{}, {state}: {meaning}", looks.name));
@@ -279,63 +285,6 @@ pub(super) struct Looks<'a> {
     pub depth: usize,
 }
 
-/// What stands before a name: a shape that shows the kind, in the colour of the views.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Chip {
-    None,
-    Disc,
-    Ring,
-    Plate,
-    Diamond,
-}
-
-impl Chip {
-    fn of(body: &Body) -> Self {
-        match (&body.shape, body.is_dynamic()) {
-            (Shape::Sphere { .. }, true) => Self::Disc,
-            (Shape::Sphere { .. }, false) => Self::Ring,
-            (Shape::Plane { .. } | Shape::Unbuilt { .. }, _) => Self::Plate,
-        }
-    }
-
-    fn paint(self, ui: &Ui, center: egui::Pos2, color: egui::Color32) {
-        let painter = ui.painter();
-        let polygon = |corners: [(f32, f32); 4]| {
-            let corners = corners.map(|(x, y)| center + vec2(x, y)).to_vec();
-            painter.add(egui::Shape::convex_polygon(corners, color, egui::Stroke::NONE));
-        };
-        match self {
-            Self::None => {}
-            Self::Disc => drop(painter.circle_filled(center, 5.0, color)),
-            Self::Ring => drop(painter.circle_stroke(center, 4.0, egui::Stroke::new(2.0, color))),
-            Self::Plate => polygon([(-3.0, -4.0), (6.0, -4.0), (3.0, 4.0), (-6.0, 4.0)]),
-            Self::Diamond => polygon([(0.0, -5.5), (5.5, 0.0), (0.0, 5.5), (-5.5, 0.0)]),
-        }
-    }
-}
-
-/// The mark that the views have for a body in contact: square at rest, ring sliding, disc rolling, diamond
-/// stepped.
-fn paint_contact(ui: &Ui, context: &AppContext<'_>, center: egui::Pos2, contact: ContactState) {
-    let (painter, palette) = (ui.painter(), context.palette());
-    match contact {
-        ContactState::Flight => {}
-        ContactState::Rest => {
-            painter.rect_filled(Rect::from_center_size(center, vec2(6.0, 6.0)), 0.0, color32(palette.rest));
-        }
-        ContactState::Slide => {
-            painter.circle_stroke(center, 3.0, egui::Stroke::new(1.5, color32(palette.slide)));
-        }
-        ContactState::Roll => drop(painter.circle_filled(center, 3.5, color32(palette.roll))),
-        ContactState::Stepped => {
-            let corners = [vec2(0.0, -4.0), vec2(4.0, 0.0), vec2(0.0, 4.0), vec2(-4.0, 0.0)];
-            let corners = corners.map(|corner| center + corner).to_vec();
-            let color = color32(palette.stepped);
-            painter.add(egui::Shape::convex_polygon(corners, color, egui::Stroke::NONE));
-        }
-    }
-}
-
 fn body_detail(body: &Body) -> String {
     match body.shape {
         Shape::Sphere { radius } => format!("r {} m", numbers::significant(radius, 4)),
@@ -349,7 +298,7 @@ fn body_detail(body: &Body) -> String {
 
 pub(super) fn row_space(ui: &mut Ui, selected: bool, name: &str) -> (Rect, egui::Response) {
     let size = vec2(ui.available_width(), ROW_HEIGHT);
-    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
     let visuals = ui.visuals();
     if selected {
         ui.painter().rect_filled(rect, 0.0, visuals.selection.bg_fill);
@@ -460,8 +409,8 @@ pub(super) fn triangle(ui: &Ui, center: egui::Pos2, open: bool) {
     ui.painter().add(egui::Shape::convex_polygon(corners, tones(ui).weak, egui::Stroke::NONE));
 }
 
-/// Whether it was opened or closed.
-fn group_row(ui: &mut Ui, group: Group, count: usize, shown: usize, open: bool) -> bool {
+/// A click opens or closes it.
+fn group_row(ui: &mut Ui, group: Group, count: usize, shown: usize, open: bool) -> egui::Response {
     let (rect, response) = row_space(ui, false, group.label());
     let tones = tones(ui);
     let center = pos2(rect.left() + 12.0, rect.center().y);
@@ -476,7 +425,7 @@ fn group_row(ui: &mut Ui, group: Group, count: usize, shown: usize, open: bool) 
     let drawn = ui.painter().text(at, Align2::LEFT_CENTER, group.label(), font, tones.strong);
     let at = pos2(drawn.right() + 8.0, at.y);
     ui.painter().text(at, Align2::LEFT_CENTER, count, FontId::proportional(11.0), tones.weak);
-    response.clicked()
+    response
 }
 
 pub(super) fn context_menu(ui: &mut Ui, context: &AppContext<'_>) {

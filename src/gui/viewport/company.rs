@@ -51,7 +51,7 @@ impl Views {
         let pane = &mut self.panes[self.active];
         let before = pane.company;
         pane.part();
-        if before.is_none_or(|company| company.is_inside()) {
+        if before.is_none_or(Company::is_inside) {
             pane.company = key.map(|key| Company { key, way: Way::Beside { last: None } });
         }
     }
@@ -62,7 +62,7 @@ impl Views {
         let pane = &mut self.panes[self.active];
         let before = pane.company;
         pane.part();
-        if before.is_some_and(|company| company.is_inside()) {
+        if before.is_some_and(Company::is_inside) {
             return;
         }
         let camera = pane.camera;

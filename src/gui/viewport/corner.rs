@@ -8,9 +8,9 @@ use crate::editor::{self, Command, SessionCommand, ViewCommand, WindowCommand};
 use crate::gui::colors::color32;
 use crate::gui::icons;
 use crate::gui::menu;
-use crate::gui::widgets::icon_button;
+use crate::gui::widgets::{TOOL_SIZE, icon_button};
 use crate::scene::{Edit, Viewpoint};
-use crate::view::{AxisView, Camera, OVERLAYS, OverlaySet, Projection, Tool};
+use crate::view::{AxisView, Camera, OVERLAYS, OverlaySet, Pivot, Projection, Tool};
 
 /// What was asked in a corner.
 #[derive(Default)]
@@ -50,24 +50,35 @@ impl Pane {
         asked
     }
 
-    /// What the handles do, down the left side of the active view.
+    /// What the handles do, down the left side of the active view; in a low one in columns.
     pub(super) fn tools(ui: &mut Ui, rect: Rect, scenery: &Scenery<'_>) {
         const TOOLS: [Tool; 4] = [Tool::Select, Tool::Move, Tool::Turn, Tool::Size];
-        let room = Rect::from_min_size(rect.min + vec2(6.0, 34.0), vec2(30.0, 150.0));
-        if room.bottom() > rect.bottom() - 60.0 {
+        const BUTTONS: usize = TOOLS.len() + 2;
+        const PITCH: f32 = TOOL_SIZE + 2.0;
+        /// Of the axes in the lower corner, points.
+        const AXES: f32 = 86.0;
+        let top = rect.min + vec2(6.0, 34.0);
+        let in_column = ((rect.bottom() - AXES - top.y) / PITCH).floor().min(BUTTONS as f32);
+        if in_column < 1.0 || BUTTONS as f32 / in_column * PITCH > 0.4 * rect.width() {
             return;
         }
-        let back = ui.painter().add(egui::Shape::Noop);
-        let column = UiBuilder::new().max_rect(room).layout(Layout::top_down(Align::Min));
-        let shown = ui.scope_builder(column, |ui| {
-            ui.spacing_mut().item_spacing.y = 2.0;
-            for tool in TOOLS {
-                tool_button(ui, scenery, ViewCommand::Tool(tool), scenery.tool == tool);
-            }
-            tool_button(ui, scenery, ViewCommand::ToggleLocalAxes, scenery.local_axes);
-        });
+        let in_column = in_column as usize;
+        let columns = BUTTONS.div_ceil(in_column);
+        let size = vec2(columns as f32 * PITCH, in_column as f32 * PITCH) - vec2(2.0, 2.0);
         let color = color32(scenery.context.palette().label_back);
-        ui.painter().set(back, egui::Shape::rect_filled(shown.response.rect, 3.0, color));
+        ui.painter().rect_filled(Rect::from_min_size(top, size), 3.0, color);
+        for nth in 0..BUTTONS {
+            let (column, row) = (nth / in_column, nth % in_column);
+            let corner = top + vec2(column as f32 * PITCH, row as f32 * PITCH);
+            let place = Rect::from_min_size(corner, vec2(TOOL_SIZE, TOOL_SIZE));
+            ui.scope_builder(UiBuilder::new().max_rect(place), |ui| match TOOLS.get(nth) {
+                Some(tool) => tool_button(ui, scenery, ViewCommand::Tool(*tool), scenery.tool == *tool),
+                None if nth == TOOLS.len() => {
+                    tool_button(ui, scenery, ViewCommand::ToggleLocalAxes, scenery.local_axes);
+                }
+                None => pivot_button(ui, scenery),
+            });
+        }
     }
 
     /// Dragged, it takes the view to another place in the window.
@@ -204,7 +215,7 @@ impl Pane {
     /// What the view goes along with, or that it flies; a click ends it.
     fn company(&mut self, ui: &mut Ui, scenery: &Scenery<'_>, asked: &mut Asked) {
         let going = self.company.and_then(|company| Some(company.words(scenery.shown.name(company.key)?)));
-        let Some(words) = self.flying.map(|flying| flying.words()).or(going) else { return };
+        let Some(words) = self.flying.map(super::flying::Flying::words).or(going) else { return };
         let button = ui.add(Button::new(words).frame_when_inactive(false));
         if button.on_hover_text("How the view moves. Click: no longer").clicked() {
             self.part();
@@ -243,6 +254,27 @@ fn tool_button(ui: &mut Ui, scenery: &Scenery<'_>, command: ViewCommand, chosen:
     if response.on_hover_text(info.tooltip(scenery.context.session)).clicked() {
         scenery.context.outbox.command(command);
     }
+}
+
+/// The choice of what several things are turned about.
+fn pivot_button(ui: &mut Ui, scenery: &Scenery<'_>) {
+    let chosen = scenery.pivot;
+    let now = editor::info(ViewCommand::Pivot(chosen)).map_or("Pivot", |info| info.label);
+    let response = icon_button(ui, now, false, |painter, square, color| {
+        icons::paint(painter, square, ViewCommand::Pivot(chosen).into(), color);
+    });
+    let response = response.on_hover_text("What several things are turned about, and grow from");
+    egui::Popup::menu(&response).show(|ui| {
+        ui.set_min_width(190.0);
+        for pivot in Pivot::ALL {
+            let Some(info) = editor::info(ViewCommand::Pivot(pivot)) else { continue };
+            let choice = ui.selectable_label(pivot == chosen, info.label);
+            if choice.on_hover_text(info.help).clicked() {
+                scenery.context.outbox.command(ViewCommand::Pivot(pivot));
+                ui.close();
+            }
+        }
+    });
 }
 
 fn keep(scenery: &Scenery<'_>, viewpoints: Vec<Viewpoint>) {

@@ -1,7 +1,7 @@
 //! Flying through the scene in a perspective view: keys move the eye, the mouse turns it.
 
 use egui::viewport::CursorGrab;
-use egui::{CursorIcon, Key, Response, Ui, ViewportCommand};
+use egui::{CursorIcon, Event, Key, Response, Ui, ViewportCommand};
 
 use super::pane::Pane;
 use super::{AppContext, Message, Scenery, Views};
@@ -63,7 +63,7 @@ impl Views {
 
 impl Flying {
     pub fn words(self) -> String {
-        format!("flies, {} map sizes a second ×", crate::gui::numbers::significant(self.speed, 2))
+        format!("flies, {} maps/s ×", crate::gui::numbers::significant(self.speed, 2))
     }
 }
 
@@ -74,7 +74,9 @@ impl Pane {
         let Some(mut flying) = self.flying else { return false };
         response.request_focus();
         let (ended, mouse, wheel) = ui.input(|input| {
-            let ended = input.key_pressed(Key::Escape) || input.pointer.any_pressed() || !input.raw.focused;
+            let ended = input.key_pressed(Key::Escape)
+                || input.pointer.any_pressed()
+                || input.events.contains(&Event::WindowFocused(false));
             let mouse = input.pointer.motion().unwrap_or(input.pointer.delta());
             (ended, mouse, input.smooth_scroll_delta().y)
         });

@@ -1,17 +1,18 @@
 //! Mouse and keys in a view: turn, move and magnify it; point at, select and drag bodies.
 
-use egui::{CursorIcon, Key, PointerButton, Pos2, Rect, Response, Stroke, StrokeKind, Ui};
+use egui::{CursorIcon, Key, PointerButton, Pos2, Rect, Response, Ui};
 use glam::{DVec2, DVec3};
 
 use super::manipulate::{Asked, Manipulation};
 use super::pane::Pane;
+use super::rubber::Rubber;
 use super::{Scenery, gizmo, ndc};
 use crate::editor::{Action, Drag, Gesture, ViewCommand};
 use crate::gui::context::Message;
 use crate::scene::{NodeKey, Shape};
 use crate::view::{
-    Axis, Grip, Handle, Hit, Knob, Projection, Subject, ViewInput, Viewport, handle_at, knobs, pick,
-    pick_rect, snap_step,
+    Axis, Grip, Handle, Hit, Knob, Pivot, Projection, Subject, ViewInput, Viewport, handle_at, knobs, pick,
+    snap_step,
 };
 
 /// Radians that the scene turns per point of dragging.
@@ -29,8 +30,8 @@ const DRAG_GESTURE: u64 = 0x6472_6167_0000;
 /// What goes on in one view.
 #[derive(Default)]
 pub struct Gestures {
-    /// Corners of a selection rectangle.
-    rubber: Option<(Pos2, Pos2)>,
+    /// Something drawn to select what is in it.
+    pub(super) rubber: Option<Rubber>,
     /// A handle or body that is being dragged.
     pub(super) pulling: Option<Manipulation>,
     /// Where the last click was, and how many went to that place.
@@ -275,9 +276,14 @@ impl Pane {
         }
     }
 
-    /// A press that became a drag: takes a handle or a body, else draws a rectangle.
+    /// A press that became a drag: takes a handle or a body, else draws a rectangle; with Alt an
+    /// outline, whatever is there.
     fn take_hold(&mut self, ui: &Ui, rect: Rect, scenery: &Scenery<'_>, input: &ViewInput<'_>) {
         let Some(at) = ui.input(|input| input.pointer.press_origin()) else { return };
+        if ui.input(|input| input.modifiers.alt) {
+            self.gestures.rubber = Some(Rubber::begin(at, true));
+            return;
+        }
         let from = ndc(&input.viewport, rect, at);
         let taken = self.take_handle(rect, at, scenery, input);
         let grabbed = || self.grab(&pick(input, from), scenery);
@@ -299,7 +305,7 @@ impl Pane {
                 let pulling = Manipulation::new(drag, grip, Some(hit.key), points(rect, at));
                 self.gestures.pulling = Some(pulling);
             }
-            Taken::Nothing => self.gestures.rubber = Some((at, at)),
+            Taken::Nothing => self.gestures.rubber = Some(Rubber::begin(at, false)),
         }
     }
 
@@ -317,7 +323,10 @@ impl Pane {
         let session = scenery.context.session;
         let drag = match handle {
             Handle::MapSide(_) => Drag::of_map(self.gesture()),
-            _ => Drag::of_selection(session, self.gesture())?,
+            _ => {
+                let drag = Drag::of_selection(session, self.gesture())?;
+                drag.each_by_itself(scenery.pivot == Pivot::Each)
+            }
         };
         let from = ndc(&input.viewport, rect, at);
         let grip = Grip::take(handle, subject, &input.camera, input.viewport, from)?;
@@ -359,8 +368,8 @@ impl Pane {
 
     /// One turn of the window in a drag.
     fn drag(&mut self, ui: &Ui, response: &Response, scenery: &Scenery<'_>, input: &ViewInput<'_>) {
-        if let (Some((_, corner)), Some(at)) = (&mut self.gestures.rubber, response.interact_pointer_pos()) {
-            *corner = at;
+        if let (Some(rubber), Some(at)) = (&mut self.gestures.rubber, response.interact_pointer_pos()) {
+            rubber.draw_to(at);
         }
         let Some(pulling) = &mut self.gestures.pulling else {
             if ui.input(|input| input.key_pressed(Key::Escape)) {
@@ -385,24 +394,12 @@ impl Pane {
     }
 
     fn let_go(&mut self, ui: &Ui, rect: Rect, scenery: &Scenery<'_>, input: &ViewInput<'_>) {
-        let outbox = scenery.context.outbox;
         if let Some(pulling) = self.gestures.pulling.take() {
             pulling.confirm(scenery);
         }
-        if let Some((a, b)) = self.gestures.rubber.take() {
-            let keys = pick_rect(input, ndc(&input.viewport, rect, a), ndc(&input.viewport, rect, b));
-            let add = ui.input(|input| input.modifiers.command || input.modifiers.shift);
-            outbox.act(if add { Action::AddToSelection(keys) } else { Action::Select(keys) });
+        if let Some(rubber) = self.gestures.rubber.take() {
+            rubber.select(ui, rect, scenery, input);
         }
-    }
-
-    pub(super) fn draw_rubber_band(&self, ui: &Ui, rect: Rect) {
-        let Some((a, b)) = self.gestures.rubber else { return };
-        let accent = crate::gui::colors::tones(ui).accent;
-        let painter = ui.painter_at(rect);
-        let band = Rect::from_two_pos(a, b);
-        painter.rect_filled(band, 0.0, accent.gamma_multiply(0.12));
-        painter.rect_stroke(band, 0.0, Stroke::new(1.0, accent), StrokeKind::Inside);
     }
 }
 

@@ -11,7 +11,7 @@ use crate::gui::colors::color32;
 use crate::gui::numbers::significant;
 use crate::scene::{Body, ForceKind, Motion, Shape as BodyShape, rotation_matrix};
 use crate::view::{
-    Axis, Camera, Freedom, Handle, Knob, Pull, Sides, Subject, Tool, Vector, VectorKind, Viewport,
+    Axis, Camera, Freedom, Handle, Knob, Pivot, Pull, Sides, Subject, Tool, Vector, VectorKind, Viewport,
     velocity_scale,
 };
 
@@ -49,16 +49,22 @@ pub(super) fn subject(scenery: &Scenery<'_>, camera: &Camera, viewport: Viewport
         }
         _ => None,
     };
-    let sides = only.and_then(sides);
-    Some(Subject { tool: scenery.tool, pivot: chosen.middle(), axes, sides, vector })
+    let several = (chosen.count > 1 && !chosen.bodies.is_empty()).then_some(Sides::Several);
+    let sides = only.and_then(sides).or(several);
+    let pivot = match scenery.pivot {
+        Pivot::Last => chosen.last,
+        Pivot::Middle | Pivot::Each => chosen.middle(),
+    };
+    Some(Subject { tool: scenery.tool, pivot, axes, sides, vector })
 }
 
 /// What of the selection can be dragged.
 struct Chosen<'s> {
     bodies: Vec<&'s Body>,
     count: usize,
-    min: DVec3,
-    max: DVec3,
+    /// Of the centres, m.
+    sum: DVec3,
+    last: DVec3,
     /// Of the last uniform gravity.
     field: Option<DVec3>,
 }
@@ -67,8 +73,8 @@ impl<'s> Chosen<'s> {
     /// `None` when there is nothing, or a moving body that is not where the document has it.
     fn of(scenery: &'s Scenery<'_>) -> Option<Self> {
         let session = scenery.context.session;
-        let (min, max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        let mut chosen = Self { bodies: Vec::new(), count: 0, min, max, field: None };
+        let (sum, last) = (DVec3::ZERO, DVec3::ZERO);
+        let mut chosen = Self { bodies: Vec::new(), count: 0, sum, last, field: None };
         for key in session.selection().keys() {
             if let Some(body) = scenery.shown.body(*key).filter(|body| !body.locked && !body.hidden) {
                 if body.is_dynamic() && !session.shows_start() {
@@ -88,11 +94,12 @@ impl<'s> Chosen<'s> {
 
     fn include(&mut self, place: DVec3) {
         self.count += 1;
-        (self.min, self.max) = (self.min.min(place), self.max.max(place));
+        self.sum += place;
+        self.last = place;
     }
 
     fn middle(&self) -> DVec3 {
-        self.min + (self.max - self.min) * 0.5
+        self.sum / self.count.max(1) as f64
     }
 }
 
@@ -158,6 +165,10 @@ fn draw_knob(painter: &Painter, rect: Rect, knob: &Knob, color: Color32) {
             let (Some(from), Some(to)) = (points.first(), points.last()) else { return };
             arrow(painter, *from, *to, Stroke::new(5.0, dark), 14.0);
             arrow(painter, *from, *to, Stroke::new(3.0, color), 12.0);
+        }
+        Handle::Scale if !knob.closed => {
+            painter.add(Shape::line(points.clone(), Stroke::new(3.5, dark)));
+            painter.add(Shape::line(points, Stroke::new(1.5, color)));
         }
         Handle::TurnAbout(_) | Handle::TurnFacing => {
             let width = if matches!(knob.handle, Handle::TurnFacing) { 1.5 } else { 3.0 };
@@ -227,6 +238,7 @@ fn name_of(handle: Handle) -> String {
         Handle::TurnAbout(axis) => format!("Turn about {}", axis.label()),
         Handle::TurnFacing => "Turn in the picture".to_owned(),
         Handle::Radius => "Change radius".to_owned(),
+        Handle::Scale => "Scale".to_owned(),
         Handle::Side { along, positive } => {
             format!("Side {}{}", if positive { "+" } else { "−" }, along.label())
         }
@@ -313,6 +325,7 @@ fn words(going_on: &Manipulation) -> String {
         }
         Some(Pull::Turn { angle, .. }) => format!("{}°", significant(angle.to_degrees(), 4)),
         Some(Pull::Radius(radius)) => format!("radius {} m", significant(radius, 5)),
+        Some(Pull::Scale(factor)) => format!("× {}", significant(factor, 5)),
         Some(Pull::Sides { half: [x, y], .. }) => {
             format!("{} × {} m", significant(2.0 * x, 5), significant(2.0 * y, 5))
         }

@@ -86,7 +86,7 @@ impl Manipulation {
     }
 
     fn takes_axis(&self) -> bool {
-        !matches!(self.grip.handle, Handle::Radius | Handle::Side { .. } | Handle::MapSide(_))
+        !matches!(self.grip.handle, Handle::Radius | Handle::Scale | Handle::Side { .. } | Handle::MapSide(_))
     }
 
     /// Follows the pointer to where it is now, points from the view's top left corner.

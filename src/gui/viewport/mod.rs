@@ -9,6 +9,7 @@ mod gizmo;
 mod linking;
 mod manipulate;
 mod pane;
+mod rubber;
 
 use std::sync::Arc;
 
@@ -22,7 +23,8 @@ use crate::editor::ViewCommand;
 use crate::record::{EventRow, Frame, PathSpan};
 use crate::scene::{Motion, NodeKey};
 use crate::view::{
-    self, Bounds, Camera, OVERLAYS, OverlaySet, Projection, Tool, VIEWS, ViewInput, Viewport, scene_bounds,
+    self, Bounds, Camera, OVERLAYS, OverlaySet, Pivot, Projection, Tool, VIEWS, ViewInput, Viewport,
+    scene_bounds,
 };
 
 pub use canvas::Canvas;
@@ -39,14 +41,27 @@ pub enum Layout {
 }
 
 /// What outlives a run.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Remembered {
     layout: Layout,
     snapping: bool,
     linked: bool,
+    through: bool,
     /// Ids of the overlays shown, view by view.
     overlays: Vec<Vec<String>>,
+}
+
+impl Default for Remembered {
+    fn default() -> Self {
+        Self {
+            layout: Layout::default(),
+            snapping: false,
+            linked: false,
+            through: true,
+            overlays: Vec::new(),
+        }
+    }
 }
 
 /// All views and what they share.
@@ -59,7 +74,10 @@ pub struct Views {
     pub snapping: bool,
     /// Whether the views along axes are moved and magnified together.
     pub linked: bool,
+    /// Whether rectangles and outlines select also what lies behind other bodies.
+    through: bool,
     pub tool: Tool,
+    pivot: Pivot,
     /// Whether handles lie along the axes of the body, not of the world.
     pub local_axes: bool,
     canvas: Canvas,
@@ -85,7 +103,9 @@ struct Scenery<'a> {
     highlighted: Option<Arc<EventRow>>,
     canvas: &'a Canvas,
     snapping: bool,
+    through: bool,
     tool: Tool,
+    pivot: Pivot,
     local_axes: bool,
 }
 
@@ -121,7 +141,9 @@ impl Views {
             before_maximized: Layout::Four,
             snapping: remembered.snapping,
             linked: remembered.linked,
+            through: remembered.through,
             tool: Tool::default(),
+            pivot: Pivot::default(),
             local_axes: false,
             canvas,
             start: StartFrame::default(),
@@ -134,6 +156,7 @@ impl Views {
             layout: self.layout,
             snapping: self.snapping,
             linked: self.linked,
+            through: self.through,
             overlays: self.panes.iter().map(ids).collect(),
         }
     }
@@ -154,8 +177,12 @@ impl Views {
 
     /// The switches that are on, for marks in menus.
     pub fn switched_on(&self) -> Vec<ViewCommand> {
-        let switches =
-            [(self.snapping, ViewCommand::ToggleSnapping), (self.linked, ViewCommand::ToggleLinked)];
+        let switches = [
+            (self.snapping, ViewCommand::ToggleSnapping),
+            (self.linked, ViewCommand::ToggleLinked),
+            (self.through, ViewCommand::ToggleThrough),
+            (true, ViewCommand::Pivot(self.pivot)),
+        ];
         switches.into_iter().filter_map(|(on, command)| on.then_some(command)).collect()
     }
 
@@ -214,7 +241,9 @@ impl Views {
             highlighted: context.session.shown_event().cloned(),
             canvas: &self.canvas,
             snapping: self.snapping,
+            through: self.through,
             tool: self.tool,
+            pivot: self.pivot,
             local_axes: self.local_axes,
         };
         let rect = snapped(area, ui.pixels_per_point());
@@ -294,6 +323,8 @@ impl Views {
                 context.outbox.send(Message::Tell(text.to_owned()));
             }
             ViewCommand::Tool(tool) => self.tool = tool,
+            ViewCommand::Pivot(pivot) => self.pivot = pivot,
+            ViewCommand::ToggleThrough => self.through = !self.through,
             ViewCommand::ToggleLocalAxes => self.local_axes = !self.local_axes,
             ViewCommand::ToggleOverlay(index) => {
                 if let Some(overlay) = OVERLAYS.get(index) {

@@ -116,10 +116,11 @@ impl Pane {
             ui.painter().rect_stroke(rect.shrink(1.0), 0.0, pen, StrokeKind::Inside);
         }
         Self::context_menu(&response, scenery);
+        let asked = self.corners(ui, rect, scenery);
+        // last: what is shown only in the active view would change the identity of all that comes after it
         if tools {
             Self::tools(ui, rect, scenery);
         }
-        let asked = self.corners(ui, rect, scenery);
         let pressed = response.is_pointer_button_down_on() || response.clicked();
         Outcome { activated: pressed || asked.activate, maximize: asked.maximize, moved: asked.moved }
     }

@@ -18,6 +18,22 @@ pub enum Tool {
     Size,
 }
 
+/// What several selected things are turned about, and grow from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Pivot {
+    /// The mean of their centres.
+    #[default]
+    Middle,
+    /// The centre of the one selected last.
+    Last,
+    /// Each its own centre.
+    Each,
+}
+
+impl Pivot {
+    pub const ALL: [Self; 3] = [Self::Middle, Self::Last, Self::Each];
+}
+
 /// What can be taken hold of. Axes are those of [`Subject::axes`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Handle {
@@ -32,6 +48,8 @@ pub enum Handle {
     /// Turns about the direction of the view.
     TurnFacing,
     Radius,
+    /// Sizes of several, and their ways from the pivot.
+    Scale,
     /// A side of a plate: along its local x or y, at the positive or negative end.
     Side {
         along: Axis,
@@ -67,6 +85,8 @@ pub enum Sides {
     },
     /// From the world's origin.
     Map(DVec3),
+    /// More than one thing: they grow by a factor.
+    Several,
 }
 
 /// An arrow whose tip can be dragged.
@@ -129,6 +149,7 @@ pub fn knobs(subject: &Subject, camera: &Camera, viewport: Viewport) -> Vec<Knob
         (Tool::Turn, _) => knobs.extend(scene.rings()),
         (Tool::Size, Some(Sides::Sphere { radius })) => knobs.extend(scene.radius(*radius)),
         (Tool::Size, Some(Sides::Plate { half, along })) => knobs.extend(scene.plate_sides(*half, *along)),
+        (Tool::Size, Some(Sides::Several)) => knobs.extend(scene.frame_of_several()),
         (Tool::Size, None) => {}
     }
     knobs.extend(subject.vector.and_then(|vector| scene.vector(&vector)));
@@ -186,7 +207,7 @@ impl Knob {
     /// Small handles lie on top of large ones.
     fn rank(&self) -> u8 {
         match self.handle {
-            Handle::Vector | Handle::Radius | Handle::Side { .. } | Handle::MapSide(_) => 0,
+            Handle::Vector | Handle::Radius | Handle::Scale | Handle::Side { .. } | Handle::MapSide(_) => 0,
             Handle::MoveFacing => 1,
             Handle::MoveAcross(_) | Handle::MoveAlong(_) | Handle::TurnAbout(_) => 2,
             Handle::TurnFacing | Handle::Body => 3,
@@ -297,6 +318,17 @@ impl Seen<'_> {
         let (right, up) = (self.camera.right(), self.camera.up());
         let places = [right, up, -right, -up].map(|unit| self.pivot + unit * radius);
         places.into_iter().filter_map(|place| self.knob(Handle::Radius, place)).collect()
+    }
+
+    /// A square around the pivot that faces the view, with knobs at its corners.
+    fn frame_of_several(&self) -> Vec<Knob> {
+        let [right, up] = [self.camera.right(), self.camera.up()].map(|unit| unit * (RING * self.scale()));
+        let corners = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
+        let corners = corners.map(|(x, y)| self.pivot + right * x + up * y);
+        let knobs = corners.into_iter().filter_map(|place| self.knob(Handle::Scale, place));
+        let outline = self.polyline(corners.into_iter().chain([corners[0]]));
+        let frame = outline.map(|outline| Knob { handle: Handle::Scale, outline, closed: false });
+        knobs.chain(frame).collect()
     }
 
     fn plate_sides(&self, half: [f64; 2], along: [DVec3; 2]) -> Vec<Knob> {

@@ -11,6 +11,6 @@ mod snap;
 pub use axis::Axis;
 pub use contact::{Guide, Neighbour, aligned, touching};
 pub use freedom::Freedom;
-pub use handles::{Handle, Knob, Sides, Subject, Tool, Vector, VectorKind, handle_at, knobs};
+pub use handles::{Handle, Knob, Pivot, Sides, Subject, Tool, Vector, VectorKind, handle_at, knobs};
 pub use pull::{Grip, Pull, pull};
 pub use snap::{fine_step, snap, snap_angle, snap_step, snap_value};

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::handles::{Sides, Vector, VectorKind};
-use super::snap::fine_angle;
+use super::snap::{FINE_FACTOR, ROUND_FACTOR, fine_angle};
 use super::{Axis, Freedom, Handle, Subject, snap_angle, snap_value};
 use crate::view::{Camera, Viewport};
 
@@ -16,6 +16,8 @@ pub enum Pull {
     Turn { axis: DVec3, angle: f64 },
     /// m.
     Radius(f64),
+    /// How often the sizes, and the ways from the pivot.
+    Scale(f64),
     /// A plate's new half sides, and how far its middle moves.
     Sides { half: [f64; 2], shift: DVec3 },
     /// m.
@@ -63,6 +65,12 @@ pub fn pull(
             let grown = radius + now.length() - from_pivot.length();
             Some(Pull::Radius(grown.max(grip.smallest)))
         }
+        (Handle::Scale, ..) => {
+            let from_pivot = grip.grabbed - subject.pivot;
+            let now = from_pivot + moved(Freedom::facing(camera))?;
+            let factor = now.length() / from_pivot.length();
+            factor.is_finite().then(|| Pull::Scale(factor.max(FINE_FACTOR)))
+        }
         (Handle::Side { along, positive }, Some(Sides::Plate { half, along: units }), _) => {
             let unit = units[along as usize & 1] * if positive { 1.0 } else { -1.0 };
             let by = moved(Freedom::Line(unit))?.dot(unit);
@@ -107,7 +115,7 @@ impl Grip {
                 let axis = self.turn_axis(camera)?;
                 *pivot + arm(camera, viewport.aspect(), axis, *pivot, self.from)?
             }
-            (Handle::Radius, ..) => {
+            (Handle::Radius | Handle::Scale, ..) => {
                 *pivot + arm(camera, viewport.aspect(), camera.backward(), *pivot, self.from)?
             }
             (Handle::Side { along, positive }, Some(Sides::Plate { half, along: units }), _) => {
@@ -157,6 +165,7 @@ impl Grip {
         match pull {
             Pull::Move(offset) => Pull::Move(self.freedom(camera).snapped(origin, offset, step)),
             Pull::Turn { axis, angle } => Pull::Turn { axis, angle: snap_angle(angle) },
+            Pull::Scale(factor) => Pull::Scale(snap_value(factor, ROUND_FACTOR).max(ROUND_FACTOR)),
             other => self.rounded(other, camera, origin, step),
         }
     }
@@ -166,6 +175,7 @@ impl Grip {
         match (pull, self.handle, self.subject.sides) {
             (Pull::Move(offset), ..) => Pull::Move(self.freedom(camera).snapped(origin, offset, step)),
             (Pull::Radius(radius), ..) => Pull::Radius(snap_value(radius, step).max(self.smallest)),
+            (Pull::Scale(factor), ..) => Pull::Scale(snap_value(factor, FINE_FACTOR).max(FINE_FACTOR)),
             (Pull::Map(size), ..) => {
                 let snapped = super::snap(size, step).max(DVec3::splat(self.smallest));
                 let Some(Sides::Map(before)) = self.subject.sides else { return pull };
@@ -202,6 +212,7 @@ impl Grip {
                 Some(Pull::Turn { axis: self.turn_axis(camera)?, angle })
             }
             (Handle::Radius, ..) => (number > 0.0).then_some(Pull::Radius(number)),
+            (Handle::Scale, ..) => (number > 0.0).then_some(Pull::Scale(number)),
             (Handle::Side { along, positive }, Some(Sides::Plate { half, along: units }), _) => {
                 let unit = units[along as usize & 1] * if positive { 1.0 } else { -1.0 };
                 (number > 0.0).then(|| side(half, along, unit, 0.5 * number, 0.0))

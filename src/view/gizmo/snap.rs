@@ -17,6 +17,11 @@ const FINE_POINTS: f64 = 0.5;
 /// Snapped angles are multiples of this: 15°, as drawing boards have it.
 const ANGLE_STEP: f64 = PI / 12.0;
 
+/// Factors of a size that is dragged freely are multiples of this, and of the other where it snaps: what a person would
+/// type.
+pub(super) const FINE_FACTOR: f64 = 0.01;
+pub(super) const ROUND_FACTOR: f64 = 0.1;
+
 /// Each coordinate to the nearest multiple of `step` metres; unchanged when `step` is not positive.
 pub fn snap(position: DVec3, step: f64) -> DVec3 {
     DVec3::from_array(position.to_array().map(|value| snap_value(value, step)))
