@@ -91,7 +91,9 @@ impl CheckArgs {
 
     fn refuse_bad_output(&self) -> Result<(), CliError> {
         match (&self.output, self.files.first()) {
-            (Some(output), Some(file)) => output::refuse_bad(output, ("the scene", file), self.force),
+            (Some(output), Some(file)) => {
+                output::refuse_bad("--output", output, ("the scene", file), self.force)
+            }
             _ => Ok(()),
         }
     }
