@@ -180,7 +180,10 @@ impl Pane {
 
     fn overlay_button(&mut self, ui: &mut Ui, scenery: &Scenery<'_>, asked: &mut Asked) {
         let count = self.overlays.ids().count();
-        let button = Button::new(RichText::new("Overlays ▾")).frame_when_inactive(false);
+        /// Of the word and of the button at the other end, points.
+        const WITH_WORD: f32 = 104.0;
+        let text = if ui.available_width() < WITH_WORD { "▾" } else { "Overlays ▾" };
+        let button = Button::new(RichText::new(text)).frame_when_inactive(false);
         let name = format!("Overlays of {} view", look_name(&self.camera));
         let (response, _) = egui::containers::menu::MenuButton::from_button(button)
             .config(
