@@ -297,7 +297,7 @@ const WORKING: &[CommandInfo] = &[
     .when(Session::can_go_to_its_events),
     row(Menu::Simulation, 1, "run_to_rest", "Run until all is at rest", "Goes on until no body moves")
         .session(SessionCommand::Travel(TravelCommand::RunToRest))
-        .when(Session::can_run_to_rest),
+        .when(Session::can_run),
     row(Menu::Simulation, 1, "play_back", "Play backwards", "Plays backwards, or stops")
         .session(SessionCommand::Travel(TravelCommand::PlayBack))
         .keys(&[Shortcut::shift(Key::Space)])

@@ -77,16 +77,6 @@ impl Session {
         self.selection.keys().iter().copied().filter(is_body).collect()
     }
 
-    pub(super) fn can_run_to_rest(&self) -> Result<(), &'static str> {
-        self.can_run()?;
-        match self.scene() {
-            Some(scene) if !scene.takes_energy() => {
-                Err("nothing in this scene takes energy, so it never rests")
-            }
-            _ => Ok(()),
-        }
-    }
-
     pub(super) fn can_find_its_events(&self) -> Result<(), &'static str> {
         self.can_run()?;
         if self.of_selection() == Of::All { Err("no body is selected") } else { Ok(()) }

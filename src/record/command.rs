@@ -97,8 +97,8 @@ pub enum Goal {
     Rest,
     /// So many events from now.
     Events(u64),
-    /// The event of this number.
-    Event(u64),
+    /// The event of this number that a run had at this time, s. Where it does not come again, that time.
+    Event { number: u64, time: f64 },
 }
 
 impl Of {

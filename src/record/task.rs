@@ -113,7 +113,7 @@ impl Goal {
     fn missing(self) -> &'static str {
         match self {
             Self::Rest => "no rest",
-            Self::Time(_) | Self::Events(_) | Self::Event(_) => "no event",
+            Self::Time(_) | Self::Events(_) | Self::Event { .. } => "no event",
         }
     }
 
@@ -134,14 +134,12 @@ impl Goal {
                 }
                 *left == 0
             }
-            Self::Event(number) => {
-                if run.cursor.event < *number {
-                    match run.slice(dt, Stop::AT_EVENTS, budget) {
-                        Slice::Event => *waited = 0,
-                        slice => *waited += u32::from(slice == Slice::Done),
-                    }
-                }
-                run.cursor.event >= *number
+            Self::Event { number, time } => {
+                let stop = Stop { at_events: true, time: *time };
+                let is_missing = run.cursor.event < *number
+                    && matches!(run.slice(dt, stop, budget), Slice::Done | Slice::Stopped)
+                    && run.cursor.time >= *time;
+                is_missing || run.cursor.event >= *number
             }
             Self::Rest => {
                 if run.is_at_rest() {

@@ -28,13 +28,6 @@ impl Scene {
     pub fn has_repeated_ids(&self) -> bool {
         self.bodies.iter().any(Body::repeats_id) || self.forces.iter().any(Force::repeats_id)
     }
-
-    /// Whether anything takes energy from what moves: air, or bodies that do not bounce back whole or rub.
-    pub fn takes_energy(&self) -> bool {
-        let takes = |body: &Body| body.bounce < 1.0 || body.roughness.friction > 0.0;
-        let is_air = |force: &Force| matches!(force.kind, ForceKind::Drag { density } if density > 0.0);
-        self.bodies.iter().any(takes) || self.forces.iter().any(is_air)
-    }
 }
 
 /// The box `[0,x]×[0,y]×[0,z]` that the tiles divide. It does not collide.

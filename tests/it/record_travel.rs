@@ -162,6 +162,25 @@ fn running_ends_at_its_goal() {
     assert_eq!(bits(&looked_up), bits(&rest));
 }
 
+/// Symptom: a run until rest of what never rests, or for one more event where none comes, went on for ever. Expected: it is
+/// given up, and says why. Cause: only "next event" counted the Δt in which nothing came nearer.
+#[test]
+fn a_goal_that_is_never_reached_is_given_up() {
+    for (scene, goal, message) in [
+        ("cradle.xml", Goal::Rest, "no rest within"),
+        ("rest.xml", Goal::Events(1_000_000), "no event within"),
+    ] {
+        let mut runner = loaded(scene);
+        runner.send(RunCommand::RunUntil { dt: DT, goal });
+        let frame = runner.frame();
+        let said = frame.fault.as_deref().unwrap_or_default();
+        assert!(said.contains(message), "{scene}: {said}");
+        assert_eq!(frame.state, RunState::Paused, "{scene}");
+        // and it can be gone on from
+        assert!(step(&mut runner, 1).time > frame.time, "{scene}");
+    }
+}
+
 #[test]
 fn what_an_edit_in_the_past_replaces_can_be_brought_back() {
     let mut runner = loaded("thesis-appendix-2.xml");

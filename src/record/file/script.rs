@@ -106,8 +106,9 @@ impl Way {
         }
         let dt = self.ticks.as_slice().first().map_or(self.usual, |(_, dt)| *dt);
         match moment {
-            Moment { event, is_over: false, .. } if event > 0 => {
-                self.commands.push(RunCommand::RunUntil { dt, goal: Goal::Event(event) });
+            Moment { event, time, is_over: false } if event > 0 => {
+                let goal = Goal::Event { number: event, time };
+                self.commands.push(RunCommand::RunUntil { dt, goal });
             }
             Moment { time, .. } if time > 0.0 => self.commands.push(RunCommand::Seek { dt, time }),
             _ => {}

@@ -81,3 +81,38 @@ fn the_same_run_comes_out_of_a_file_with_edits() {
         assert!(file.checkpoints.len() > 4, "{name}: {} states", file.checkpoints.len());
     }
 }
+
+/// Two balls that meet after 1800 s in which nothing happens.
+const SLOW: &[u8] = br#"<?xml version="1.0" encoding="utf-8"?>
+<PolyPhysicsXml Version="1.0">
+  <Map><Size X="10" Y="10" Z="10" /><Tiles X="1" Y="1" Z="1" /></Map>
+  <Primitives>
+    <SoftObject UserID="1"><Translation X="2" Y="5" Z="5" /><Bounce F32="1" /><Sphere><Radius F32="0.5" /></Sphere>
+      <Weight F32="1" /><InitialVelocity X="0.001" Y="0" Z="0" /></SoftObject>
+    <SoftObject UserID="2"><Translation X="4.8" Y="5" Z="5" /><Bounce F32="1" /><Sphere><Radius F32="0.5" /></Sphere>
+      <Weight F32="1" /><InitialVelocity X="0" Y="0" Z="0" /></SoftObject>
+  </Primitives>
+</PolyPhysicsXml>"#;
+
+/// The way to an event is as long as it was: waiting for it is not given up as waiting for one that may never come is.
+#[test]
+fn an_edit_at_an_event_after_a_long_quiet_time_is_made_again() {
+    let document = Document::from_bytes(SLOW);
+    let mut recorded = runner(&document, Method::Exact);
+    let dt = 1.0 / 60.0;
+    recorded.send(RunCommand::Step { dt, count: 107_900 });
+    recorded.send(RunCommand::NextEvent { dt, of: Of::All });
+    let ball = recorded.frame().bodies[0].key;
+    recorded.send(RunCommand::Edit(vec![SimEdit::Mass(ball, 2.0)]));
+    recorded.send(RunCommand::Step { dt, count: 3 });
+    // the impact and the edit
+    assert_eq!((recorded.frame().fault.clone(), recorded.frame().event_count), (None, 2));
+    let file = recorded.recording("slow.xml", SLOW).unwrap();
+    let mut again = runner(&document, Method::Exact);
+    for command in file.commands(document.scene().unwrap()).unwrap() {
+        again.send(command);
+    }
+    let (frame, expected) = (again.frame(), recorded.frame());
+    assert_eq!((frame.fault.clone(), frame.time, frame.event_count), (None, expected.time, 2));
+    assert_eq!(again.hash(), recorded.hash());
+}
