@@ -163,6 +163,42 @@ mod tests {
         assert!(found_from_loads > 2 * cases, "{found_from_loads} of {}", 3 * cases);
     }
 
+    /// Heaps of masses up to 1 : 10⁶: what loads alone tell meets the conditions of Karush, Kuhn and Tucker to the digits
+    /// that loads so much larger than the motion leave, and they nearly always tell it.
+    #[test]
+    fn loads_alone_are_good_enough_where_masses_differ_by_far() {
+        let mut source = Random::new(11);
+        let mut random = move || source.range(-1.0, 1.0);
+        let (mut told, cases) = (0, 300);
+        for case in 0..cases {
+            let bodies = 4 + case % 24;
+            let inverse_mass: Vec<f64> = (0..bodies).map(|_| libm::exp(6.9 * random())).collect();
+            let links: Vec<Link> = (0..2 * bodies)
+                .map(|k| {
+                    let towards = DVec3::new(random(), random() - 2.0, random()).normalize();
+                    let (a, b) = (k % bodies, (k * 5 + 1) % bodies);
+                    Link { a, b: (a > b).then_some(b), towards, limit: 0.1 * random() }
+                })
+                .collect();
+            let both = vec![false; links.len()];
+            let problem = Problem { links: &links, both: &both, inverse_mass: &inverse_mass };
+            let mut motion = vec![DVec3::NEG_Y; bodies];
+            let Some(loads) = Loads::default().bring_near(&problem, &mut motion) else { continue };
+            told += 1;
+            let mut made = vec![DVec3::NEG_Y; bodies];
+            links.iter().zip(&loads).for_each(|(link, load)| link.push(&mut made, &inverse_mass, *load));
+            for (link, load) in links.iter().zip(&loads) {
+                let moved = |body: usize| load * inverse_mass[body];
+                let size = 1.0 + moved(link.a) + link.b.map_or(0.0, moved);
+                let excess = link.entering(&motion) - link.limit;
+                assert!(*load >= 0.0 && excess <= 1e-9 * size, "case {case}: {load:e} {excess:e}");
+                assert!(*load == 0.0 || excess.abs() <= 1e-9 * size, "case {case}: {load:e} {excess:e}");
+            }
+            assert!(made.iter().zip(&motion).all(|(made, found)| made.distance(*found) <= 1e-9));
+        }
+        assert!(told * 10 >= 9 * cases, "{told} of {cases}");
+    }
+
     #[test]
     fn responses_are_the_same_by_either_way() {
         let towards = |k: usize| DVec3::new(libm::sin(k as f64), -1.0, libm::cos(3.0 * k as f64)).normalize();

@@ -18,6 +18,7 @@ mod list_cache;
 mod overlays;
 mod pick;
 mod see_through;
+mod sight;
 mod stage;
 mod viewpoint;
 mod views;

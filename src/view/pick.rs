@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
+use super::sight::Sight;
 use super::stage::{Posed, Stage};
 use super::{Ray, ViewInput, forces};
 use crate::scene::{NodeKey, Shape, rotation_matrix};
@@ -67,28 +68,39 @@ fn pick_where(input: &ViewInput<'_>, through: bool, within: impl Fn(DVec2) -> bo
     let stage = Stage::new(input);
     let aspect = input.viewport.aspect();
     let inside = |place: DVec3| stage.camera.project(place, aspect).is_some_and(|at| within(at.truncate()));
+    let sight = (!through).then(|| Sight::of(&stage, |posed| reach(&stage, posed)));
     let bodies = stage
         .bodies
         .iter()
         .filter(|posed| !stage.is_see_through(posed) && inside(posed.position))
-        .filter(|posed| through || is_in_sight(&stage, posed))
+        .filter(|posed| sight.as_ref().is_none_or(|sight| is_in_sight(&stage, sight, posed)))
         .map(|posed| posed.body.key);
     let forces = forces::visible(input.scene).filter(|(_, place)| inside(*place)).map(|(force, _)| force.key);
     bodies.chain(forces).collect()
 }
 
 /// Whether nothing is seen before a body in the direction of its centre.
-fn is_in_sight(stage: &Stage<'_>, posed: &Posed<'_>) -> bool {
+fn is_in_sight(stage: &Stage<'_>, sight: &Sight, posed: &Posed<'_>) -> bool {
     let aspect = stage.input.viewport.aspect();
-    let Some(at) = stage.camera.project(posed.position, aspect) else { return false };
-    let ray = stage.camera.ray(at.truncate(), aspect);
+    let Some(at) = stage.camera.project(posed.position, aspect).map(DVec3::truncate) else { return false };
+    let ray = stage.camera.ray(at, aspect);
     let Some(own) = ray_body(stage, &ray, posed) else { return true };
     let before = |other: &Posed<'_>| {
         other.body.key != posed.body.key
             && !stage.is_see_through(other)
             && ray_body(stage, &ray, other).is_some_and(|distance| distance < own)
     };
-    !stage.bodies.iter().any(before)
+    !sight.at(at).any(|index| before(&stage.bodies[index]))
+}
+
+/// Radius around its centre within which a body is picked, m.
+fn reach(stage: &Stage<'_>, posed: &Posed<'_>) -> f64 {
+    let points = |points: f64| points * stage.metres_per_point(posed.position);
+    match posed.body.shape {
+        Shape::Sphere { radius } => radius.max(points(SMALLEST_RADIUS)),
+        Shape::Plane { half_x, half_y } => libm::hypot(half_x, half_y),
+        Shape::Unbuilt { .. } => points(MARKER_RADIUS),
+    }
 }
 
 fn markers_at(stage: &Stage<'_>, ndc: DVec2) -> Vec<Hit> {
@@ -108,14 +120,10 @@ fn markers_at(stage: &Stage<'_>, ndc: DVec2) -> Vec<Hit> {
 fn ray_body(stage: &Stage<'_>, ray: &Ray, posed: &Posed<'_>) -> Option<f64> {
     let center = posed.position;
     match posed.body.shape {
-        Shape::Sphere { radius } => {
-            let smallest = SMALLEST_RADIUS * stage.metres_per_point(center);
-            ray_sphere(ray, center, radius.max(smallest))
-        }
+        Shape::Sphere { .. } | Shape::Unbuilt { .. } => ray_sphere(ray, center, reach(stage, posed)),
         Shape::Plane { half_x, half_y } => {
             ray_plate(ray, center, rotation_matrix(posed.body.rotation), half_x, half_y)
         }
-        Shape::Unbuilt { .. } => ray_sphere(ray, center, MARKER_RADIUS * stage.metres_per_point(center)),
     }
 }
 
