@@ -66,7 +66,11 @@ fn title(context: &AppContext<'_>, shown: &Shown, bodies: &[NodeKey], forces: &[
         }
         (bodies, [], _) => format!("{} bodies", bodies.len()),
         ([], forces, _) => format!("{} forces", forces.len()),
-        (bodies, forces, _) => format!("{} bodies, {} forces", bodies.len(), forces.len()),
+        (bodies, forces, _) => {
+            let counted = |count, one, many| format!("{count} {}", if count == 1 { one } else { many });
+            let bodies = counted(bodies.len(), "body", "bodies");
+            format!("{bodies}, {}", counted(forces.len(), "force", "forces"))
+        }
     }
 }
 
