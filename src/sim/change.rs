@@ -8,7 +8,7 @@ use glam::DVec3;
 use super::body::BodyId;
 use super::books::{angular_value, book_segment, energies, momentum_value};
 use super::compile::{check_force, check_roughness, compile_body};
-use super::dense::step_length;
+use super::dense::set_step;
 use super::drive::begin_all;
 use super::edit::{EditRefused, SimEdit};
 use super::event::{BodyRef, Event, EventKind};
@@ -88,9 +88,7 @@ fn plan_anew(model: &mut Model, state: &mut State) {
     model.plan.spin |= !state.turns.is_empty();
     state.make_turns(model);
     if model.plan.stepped_groups || state.dense.is_some() {
-        let at = |body| (state.position(body, state.now), state.velocity(body, state.now));
-        model.dense_step = step_length(model, at);
-        model.plan.group_step = model.dense_step;
+        set_step(model, |body| (state.position(body, state.now), state.velocity(body, state.now)));
     }
 }
 

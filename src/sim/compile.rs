@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DMat3, DVec3};
 
 use super::body::{Bodies, Body, Identity, Origin, Rare};
-use super::dense::step_length;
+use super::dense::set_step;
 use super::force::{ForceEntry, Law};
 use super::method::Method;
 use super::model::Model;
@@ -57,16 +57,16 @@ pub(super) fn compile(scene: &Scene, method: Method) -> Result<(Model, Vec<Origi
         grid,
         static_tiles,
         dense_step: 0.0,
+        smallest_radius: f64::INFINITY,
         plan: Plan::default(),
         start_warnings: Vec::new(),
     };
     model.plan = plan_of(&model);
     if model.plan.stepped_groups {
-        model.dense_step = step_length(&model, |body| {
+        set_step(&mut model, |body| {
             let origin = &origins[body as usize];
             (origin.position, origin.velocity)
         });
-        model.plan.group_step = model.dense_step;
     }
     Ok((model, origins))
 }

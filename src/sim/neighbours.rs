@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::body::BodyId;
 use super::contact_ends::predict_contact_events;
-use super::dense::Role;
+use super::dense::{Role, step_at};
 use super::force::Law;
 use super::geometry::{ball, contact_distance, gap_of, larger_radius, target};
 use super::model::Model;
@@ -294,7 +294,8 @@ fn predict_reach(model: &Model, state: &mut State, pair: Pair, time: f64) {
     // Not before it is in the tiles of the other for certain: when it got there is not to matter.
     let Some(near) = touch_of(model, state, body, member, OUTER, time) else { return };
     let Some(epoch) = state.dense.as_ref().map(|dense| dense.epoch) else { return };
-    let soon = (met - 2.0 * model.dense_step).max(near).max(time);
+    let step = step_at(model, state.position(member, time));
+    let soon = (met - 2.0 * step).max(near).max(time);
     let (kind, b) = (Kind::Reach, BodyId::of_dynamic(member));
     let stamp_a = state.stamps[body as usize];
     state.queue.push(Predicted { time: soon, kind, a: body, b, stamp_a, stamp_b: epoch });

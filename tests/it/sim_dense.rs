@@ -125,6 +125,26 @@ fn balls_a_million_times_heavier_than_others_are_not_swept_for_ever() {
     assert!(sim.energy().residual.expect("all work is known").abs() <= 1e-11);
 }
 
+/// Symptom: thirty balls on a floor, an attractor a metre above them, played at twice real time where they play at sixteen times
+/// now. Expected: steps are as long as what drives the bodies wants it where they are. Cause: every step was as short as one
+/// between bodies that touch at the attractor's centre.
+#[test]
+fn an_attractor_that_nobody_is_near_shortens_no_steps() {
+    let steps_of = |scene: &Scene| {
+        let mut sim = simulation(scene);
+        advance(&mut sim, 1.0, LOOK);
+        let energy = sim.energy().residual.expect("all work is known");
+        assert!(energy.abs() <= 1e-6, "residual {energy:e}");
+        sim.counters().steps as f64
+    };
+    let heap = Heap::of(27, 0.2, 1);
+    let alone = steps_of(&heap.scene());
+    // A quarter of gravity at the floor, and 256 times it at two radii.
+    let below = dvec3(2.2, 1.0 - 64.0 * RADIUS, 2.2);
+    let beside_one = steps_of(&heap.scene().attractor(below, -GRAVITY * 1024.0 * RADIUS * RADIUS));
+    assert!(alone > 100.0 && beside_one <= 3.0 * alone, "{beside_one} steps, and {alone} without it");
+}
+
 #[test]
 fn a_column_in_single_file_holds() {
     let heap = Heap { width: 2.4 * RADIUS, ..Heap::of(30, 0.2, 6) };

@@ -1,6 +1,7 @@
 //! When bodies are to be stepped: where they are struck more often than events can follow, or held together in a way
 //! that costs more than steps would.
 
+use super::clock::step_at;
 use super::data::{Activity, Decaying};
 use super::tolerance::{
     CROWDED, HALF_LIFE, HALF_LIFE_OF_WORK, LEAST_STRUCK, MOST_AT_ONE_INSTANT, SMALLEST_CROWD,
@@ -11,11 +12,12 @@ use crate::sim::state::State;
 
 /// Notes an impact of a body at a time: one row of the ledger.
 pub(in crate::sim) fn note_impact(model: &Model, state: &mut State, body: u32, time: f64, is_lossy: bool) {
+    let half_life = HALF_LIFE * step_of(model, state, body, time);
     if let Some(dense) = &mut state.dense {
         let activity = &mut dense.activity[body as usize];
-        activity.impacts.add(1.0, time, HALF_LIFE * model.dense_step);
+        activity.impacts.add(1.0, time, half_life);
         if is_lossy {
-            activity.lossy.add(1.0, time, HALF_LIFE * model.dense_step);
+            activity.lossy.add(1.0, time, half_life);
             if activity.instant != time {
                 (activity.instant, activity.at_once) = (time, 0);
             }
@@ -26,11 +28,15 @@ pub(in crate::sim) fn note_impact(model: &Model, state: &mut State, body: u32, t
 
 /// Notes that lossy bodies were resolved or integrated together.
 pub(in crate::sim) fn note_work(model: &Model, state: &mut State, bodies: &[u32], time: f64) {
+    if state.dense.is_none() {
+        return;
+    }
+    let steps: Vec<f64> = bodies.iter().map(|body| step_of(model, state, *body, time)).collect();
     let Some(dense) = &mut state.dense else { return };
     let size = bodies.len() as f64;
-    for body in bodies {
+    for (body, step) in bodies.iter().zip(steps) {
         let work = &mut dense.activity[*body as usize].work;
-        work.add(WORK_OF_CUBE * size * size * size, time, HALF_LIFE_OF_WORK * model.dense_step);
+        work.add(WORK_OF_CUBE * size * size * size, time, HALF_LIFE_OF_WORK * step);
     }
 }
 
@@ -38,11 +44,12 @@ pub(in crate::sim) fn note_work(model: &Model, state: &mut State, bodies: &[u32]
 /// much; `None` if it is not.
 pub(in crate::sim) fn least_crowd(model: &Model, state: &State, body: u32, time: f64) -> Option<usize> {
     let Activity { lossy, work, instant, at_once, .. } = &state.dense.as_ref()?.activity[body as usize];
+    let step = step_of(model, state, body, time);
     let is_stuck = *instant == time && *at_once >= MOST_AT_ONE_INSTANT;
-    if is_stuck || work.at(time, HALF_LIFE_OF_WORK * model.dense_step) >= TOO_MUCH_WORK {
+    if is_stuck || work.at(time, HALF_LIFE_OF_WORK * step) >= TOO_MUCH_WORK {
         return Some(2);
     }
-    crowd(lossy.at(time, HALF_LIFE * model.dense_step))
+    crowd(lossy.at(time, HALF_LIFE * step))
 }
 
 /// The same for a body of an elastic pair: by all its impacts, for elastic ones come without end too.
@@ -53,7 +60,13 @@ pub(in crate::sim) fn least_elastic_crowd(
     time: f64,
 ) -> Option<usize> {
     let impacts = &state.dense.as_ref()?.activity[body as usize].impacts;
-    crowd(impacts.at(time, HALF_LIFE * model.dense_step)).map(|least| least.max(SMALLEST_ELASTIC_CROWD))
+    let half_life = HALF_LIFE * step_of(model, state, body, time);
+    crowd(impacts.at(time, half_life)).map(|least| least.max(SMALLEST_ELASTIC_CROWD))
+}
+
+/// The step of a body where it is, s.
+fn step_of(model: &Model, state: &State, body: u32, time: f64) -> f64 {
+    if model.is_ballistic() { model.dense_step } else { step_at(model, state.position(body, time)) }
 }
 
 /// How many bodies must move together that are struck this often.

@@ -2,28 +2,43 @@
 
 use glam::DVec3;
 
-use super::tolerance::{FALL_IN_A_STEP, MOST_HALVINGS, SHORTEST_STEP, WAY_IN_A_STEP};
+use super::tolerance::{FALL_IN_A_STEP, MOST_HALVINGS_BY_PULL, SHORTEST_STEP, WAY_IN_A_STEP};
 use crate::sim::force::Law;
 use crate::sim::model::Model;
 use crate::sim::place::Place;
 
+/// Sets the step of groups: `at` gives where the bodies are and how fast.
+pub(in crate::sim) fn set_step(model: &mut Model, at: impl Fn(u32) -> (DVec3, DVec3)) {
+    model.smallest_radius = model.present().map(|body| model.radius(body)).fold(f64::INFINITY, f64::min);
+    model.dense_step = step_length(model, at);
+    model.plan.group_step = model.dense_step;
+}
+
 /// Length of a step, s: a power of two, so that grid times are exact, of at most √(2e-4·r/g) for the smallest radius
-/// and the largest acceleration of the bodies where they are; at point attractors of bodies that touch at their
-/// centre. Without forces bodies pass a fiftieth of the radius in it.
-pub(in crate::sim) fn step_length(model: &Model, at: impl Fn(u32) -> (DVec3, DVec3)) -> f64 {
+/// and the largest acceleration of the bodies where they are. The pull of a point attractor, which grows as they come
+/// near, shortens steps where it is felt ([`step_at`]), but no further than for bodies that touch at its centre. Without
+/// forces bodies pass a fiftieth of the radius in a step.
+fn step_length(model: &Model, at: impl Fn(u32) -> (DVec3, DVec3)) -> f64 {
     if model.params.dense_step > 0.0 {
         return model.params.dense_step;
     }
-    let smallest = model.present().map(|body| model.radius(body)).fold(f64::INFINITY, f64::min);
-    let mut strongest: f64 = 0.0;
-    let mut fastest: f64 = 0.0;
+    let smallest = model.smallest_radius;
+    let (mut without, mut within, mut fastest) = (0.0_f64, 0.0_f64, 0.0_f64);
     for body in model.present() {
         let (x, v) = at(body);
         fastest = fastest.max(v.length());
-        strongest = strongest.max(acceleration(model, body, x, smallest));
+        without = without.max(acceleration(model, body, x, |_| 0.0));
+        within =
+            within.max(acceleration(model, body, x, |intensity| intensity / (4.0 * smallest * smallest)));
     }
-    if strongest > 0.0 {
-        return power_of_two_below((FALL_IN_A_STEP * smallest / strongest).sqrt());
+    if within > 0.0 {
+        let shortest = power_of_two_below(fall_time(smallest, within));
+        let longest = shortest * f64::from(1_u32 << MOST_HALVINGS_BY_PULL);
+        return if without > 0.0 {
+            power_of_two_below(fall_time(smallest, without)).min(longest)
+        } else {
+            longest
+        };
     }
     // Once there are steps, they are kept when the forces are taken away: what is left of motion tells nothing.
     if model.dense_step > 0.0 {
@@ -32,11 +47,49 @@ pub(in crate::sim) fn step_length(model: &Model, at: impl Fn(u32) -> (DVec3, DVe
     power_of_two_below(WAY_IN_A_STEP * smallest / fastest)
 }
 
-/// What drives a body, without drag, m/s².
-fn acceleration(model: &Model, body: u32, x: DVec3, smallest: f64) -> f64 {
+/// How often a step is halved for the pull of attractors at a place.
+pub(super) fn halvings_by_pull(model: &Model, x: DVec3) -> u8 {
+    if model.params.dense_step > 0.0 || model.is_ballistic() {
+        return 0;
+    }
+    let pull = |law: &Law| match *law {
+        Law::Point { center, intensity } => {
+            let way = center - x;
+            let distance = way.length();
+            way * (intensity / (distance * distance * distance))
+        }
+        Law::Uniform { acceleration } => acceleration,
+        _ => DVec3::ZERO,
+    };
+    let felt = model.forces.iter().map(|force| pull(&force.law)).sum::<DVec3>().length();
+    let longest = fall_time(model.smallest_radius, felt);
+    let mut halvings = 0;
+    while halvings < MOST_HALVINGS_BY_PULL && halved(model.dense_step, halvings) > longest {
+        halvings += 1;
+    }
+    halvings
+}
+
+/// The longest step of a body at a place, s.
+pub(in crate::sim) fn step_at(model: &Model, x: DVec3) -> f64 {
+    halved(model.dense_step, halvings_by_pull(model, x))
+}
+
+/// s.
+pub(super) fn halved(step: f64, halvings: u8) -> f64 {
+    step / f64::from(1_u32 << halvings)
+}
+
+/// How long a body needs to fall by what a step may leave unsolved, √(2e-4·r/g), s.
+fn fall_time(radius: f64, acceleration: f64) -> f64 {
+    (FALL_IN_A_STEP * radius / acceleration).sqrt()
+}
+
+/// What drives a body, without drag, m/s²; attractors by a pull of their intensity.
+fn acceleration(model: &Model, body: u32, x: DVec3, pull: impl Fn(f64) -> f64) -> f64 {
     let subject = model.subject(body, 0.0, Place::exact(x), DVec3::ZERO);
     let of_law = |law: &Law| match *law {
-        Law::Point { intensity, .. } => DVec3::X * (intensity.abs() / (4.0 * smallest * smallest)),
+        Law::Point { intensity, .. } => DVec3::X * pull(intensity.abs()),
         _ => law.force(&subject) / subject.mass,
     };
     model.forces.iter().map(|force| of_law(&force.law)).sum::<DVec3>().length()
@@ -53,7 +106,7 @@ fn power_of_two_below(time: f64) -> f64 {
 /// End of a step that begins at a time: the next time of the grid of steps halved so often, or the one after if that
 /// is too near.
 pub(super) fn step_end(step: f64, halvings: u8, time: f64) -> f64 {
-    let length = step / f64::from(1_u32 << halvings.min(MOST_HALVINGS));
+    let length = halved(step, halvings);
     let count = ((time + SHORTEST_STEP * length) / length).floor() + 1.0;
     let end = count * length;
     // Where a step is below the resolution of time, time must go on all the same.

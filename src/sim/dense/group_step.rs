@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use glam::DVec3;
 
-use super::clock::step_end;
+use super::clock::{step_at, step_end};
 use super::data::{Component, Dense, Member, Role, Work};
 use super::list::{self, NearOutsiders};
 use super::membership::{Left, component, frozen_with, take_in};
@@ -265,7 +265,8 @@ fn reached_frozen(
         let (x, v) = (path.position(time), path.velocity(time));
         let gap =
             (x - state.segments[other as usize].x).length() - model.radius(member.body) - model.radius(other);
-        let way = model.dense_step * (v.length() + model.dense_step * path.segment.a.length());
+        let step = step_at(model, x);
+        let way = step * (v.length() + step * path.segment.a.length());
         if gap <= 2.0 * way {
             numbers.insert(number);
         }
@@ -275,7 +276,8 @@ fn reached_frozen(
 
 /// Solves the step of a component, halved as often as it takes.
 fn propose(model: &Model, state: &mut State, dense: &Dense, component: &mut Component, time: f64) {
-    component.work.halvings = halvings(model, dense, component);
+    let by_pull = component.work.bodies.iter().map(|body| body.halvings_by_pull).max().unwrap_or(0);
+    component.work.halvings = halvings(model, dense, component, by_pull);
     component.work.is_tough = tough_steps(dense, component) > 0;
     loop {
         let work = &mut component.work;
@@ -291,7 +293,7 @@ fn propose(model: &Model, state: &mut State, dense: &Dense, component: &mut Comp
         if work.solution.has_converged {
             return;
         }
-        if work.halvings >= MOST_HALVINGS_TO_CONVERGE {
+        if work.halvings >= by_pull + MOST_HALVINGS_TO_CONVERGE {
             if work.solution.gains {
                 solve_contacts(model, state, dense, component, h, Landing::Only);
                 state.counters.sweeps += component.work.solution.sweeps as u64;
@@ -309,17 +311,17 @@ fn tough_steps(dense: &Dense, component: &Component) -> u8 {
 }
 
 /// How often the step of a component must be halved at least: as often as the last, or once less after an easy one,
-/// and so often that nobody passes much of its radius in it.
-fn halvings(model: &Model, dense: &Dense, component: &Component) -> u8 {
+/// so often as the pull of attractors wants it, and so often that nobody passes much of its radius in it.
+fn halvings(model: &Model, dense: &Dense, component: &Component, by_pull: u8) -> u8 {
     let members = component.slots.iter().map(|slot| &dense.members[*slot as usize]);
     let of = |member: &Member| member.halvings.saturating_sub(u8::from(member.is_easy));
-    let mut halvings = members.map(of).max().unwrap_or(0);
+    let mut halvings = members.map(of).max().unwrap_or(0).max(by_pull);
     let ways = component.work.bodies.iter().map(|body| model.dense_step * body.v.length() / body.radius);
     let stiffest = component.work.bodies.iter().map(|body| body.stiffness).fold(0.0, f64::max);
     // The part of a radius that is passed, and that of a turn.
     let passed =
         (ways.fold(0.0, f64::max) / WAY_OF_RADIUS).max(model.dense_step * stiffest.sqrt() / TURN_IN_A_STEP);
-    while passed > f64::from(1_u32 << halvings) && halvings < MOST_HALVINGS {
+    while passed > f64::from(1_u32 << halvings) && halvings < by_pull + MOST_HALVINGS {
         halvings += 1;
     }
     halvings

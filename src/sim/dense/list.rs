@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::cells::{Ball, for_each_overlap};
+use super::clock::step_at;
 use super::components;
 use super::data::{Dense, Listed, Member, Role};
 use super::stepped::FIXED;
@@ -18,13 +19,13 @@ pub(super) type NearOutsiders = Vec<(u32, u32)>;
 
 /// Whether the list no longer tells all that may touch in a step from `time` on.
 pub(super) fn is_old(model: &Model, state: &State, dense: &Dense, time: f64) -> bool {
-    let step = model.dense_step;
     dense.is_list_stale
-        || time - dense.listed_since > OLDEST_LIST * step
+        || time - dense.listed_since > OLDEST_LIST * model.dense_step
         || dense.members.iter().any(|member| {
             let path = state.path(member.body);
             let (x, v) = (path.position(time), path.velocity(time));
             let way = (x - member.listed_at).length();
+            let step = step_at(model, x);
             way + step * (v.length() + step * path.segment.a.length()) > member.margin
         })
 }
@@ -54,7 +55,7 @@ fn place_members(model: &Model, state: &mut State, dense: &mut Dense, time: f64)
         let path = state.path(member.body);
         let (x, v) = (path.position(time), path.velocity(time));
         let radius = model.radius(member.body);
-        let skin = (SKIN * radius).max(SKIN_STEPS * model.dense_step * v.length());
+        let skin = (SKIN * radius).max(SKIN_STEPS * step_at(model, x) * v.length());
         member.listed_at = x;
         member.margin = skin.max(member.widened);
         member.widened = 0.0;

@@ -31,7 +31,7 @@ mod tolerance;
 mod view;
 
 pub(super) use activity::{least_crowd, least_elastic_crowd, note_impact, note_work};
-pub(super) use clock::step_length;
+pub(super) use clock::{set_step, step_at};
 pub(super) use data::{Dense, Role};
 pub(super) use group_step::{enter, next_step, reach, step, wake_all};
 pub(super) use membership::component;

@@ -74,7 +74,7 @@ pub(super) fn is_still(model: &Model, dense: &mut Dense, component: &Component, 
         if (body.x - member.anchor).length_squared() > (STILL * radius) * (STILL * radius) {
             (member.anchor, member.still_since) = (body.x, time);
         }
-        is_still &= member.is_stepped && time - member.still_since >= STILL_STEPS * model.dense_step;
+        is_still &= member.is_stepped && time - member.still_since >= STILL_STEPS * body.step;
         let mass = model.mass(body.body);
         kinetic += 0.5 * mass * body.u.length_squared();
         scale += mass * body.drive * radius;

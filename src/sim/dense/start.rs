@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::clock::{halved, halvings_by_pull};
 use super::data::{Component, Dense, Member};
 use super::rub::Law;
 use super::stepped::{Contact, Stepped};
@@ -21,11 +22,12 @@ pub(super) fn read_bodies(model: &Model, state: &State, dense: &Dense, component
 }
 
 fn body_of(model: &Model, state: &State, member: &Member, time: f64) -> Stepped {
-    let step = model.dense_step;
     let path = state.path(member.body);
     let inverse_mass = state.inverse_mass(model, member.body);
     let is_held = inverse_mass == 0.0;
     let x = path.position(time);
+    let halvings_by_pull = halvings_by_pull(model, x);
+    let step = halved(model.dense_step, halvings_by_pull);
     let v = if is_held { DVec3::ZERO } else { path.velocity(time) };
     let a = if inverse_mass > 0.0 { driven(model, member.body, (x, v), time, step) } else { DVec3::ZERO };
     // Where forces change along the way, the leapfrog's other half of the kick.
@@ -49,6 +51,8 @@ fn body_of(model: &Model, state: &State, member: &Member, time: f64) -> Stepped 
         inverse_mass,
         radius,
         stiffness,
+        step,
+        halvings_by_pull,
     };
     body.take_step(step);
     body

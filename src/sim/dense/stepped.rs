@@ -30,6 +30,9 @@ pub(super) struct Stepped {
     pub radius: f64,
     /// How fast the pull of attractors changes, 1/s².
     pub stiffness: f64,
+    /// The longest step for that pull, s, and how many halvings make it.
+    pub step: f64,
+    pub halvings_by_pull: u8,
 }
 
 impl Stepped {
@@ -46,6 +49,8 @@ impl Stepped {
         inverse_mass: 0.0,
         radius: 0.0,
         stiffness: 0.0,
+        step: f64::INFINITY,
+        halvings_by_pull: 0,
     };
 
     /// Turns to a step of another length h, s.

@@ -14,7 +14,11 @@ pub(super) const WAY_IN_A_STEP: f64 = 0.02;
 
 /// A step may be halved so often. Errors fall with the square of the step; slim columns need it, and bodies that pass
 /// more than a share of their radius in a step.
-pub(super) const MOST_HALVINGS: u8 = 8;
+pub(super) const MOST_HALVINGS: u8 = 10;
+
+/// So often a step is halved for the pull of an attractor, beside those. The step of the scene is so much longer at most
+/// than where bodies touch at the attractor's centre: more, and what goes by it waits long elsewhere.
+pub(super) const MOST_HALVINGS_BY_PULL: u8 = 4;
 
 /// Halvings after which a step that does not converge is taken as it is: the residual is overlap, which is shown.
 pub(super) const MOST_HALVINGS_TO_CONVERGE: u8 = 4;
@@ -26,7 +30,7 @@ pub(super) const WAY_OF_RADIUS: f64 = 0.25;
 /// Whoever would turn by more than this in a step about an attractor, √(G/d³)·h in radians, or come nearer by this part
 /// of the distance, needs shorter ones: the error
 /// of a leapfrog turn is a few hundredths of its square.
-pub(super) const TURN_IN_A_STEP: f64 = 0.05;
+pub(super) const TURN_IN_A_STEP: f64 = 0.0125;
 
 /// A first step shorter than this part of a step is joined to the next.
 pub(super) const SHORTEST_STEP: f64 = 0.125;
