@@ -74,6 +74,7 @@ pub struct Palette {
     pub roll: Color,
     pub stepped: Color,
     pub chain: Color,
+    pub measure: Color,
     pub axes: [Color; 3],
 }
 
@@ -106,6 +107,7 @@ const DARK: Palette = Palette {
     roll: Color::rgb(120, 205, 245),
     stepped: Color::rgb(190, 150, 255),
     chain: Color::rgb(255, 250, 236),
+    measure: Color::rgb(120, 232, 214),
     axes: [Color::rgb(240, 92, 92), Color::rgb(112, 208, 96), Color::rgb(92, 150, 255)],
 };
 
@@ -138,6 +140,7 @@ const LIGHT: Palette = Palette {
     roll: Color::rgb(0, 104, 160),
     stepped: Color::rgb(110, 60, 190),
     chain: Color::rgb(16, 20, 28),
+    measure: Color::rgb(0, 112, 104),
     axes: [Color::rgb(204, 38, 38), Color::rgb(38, 138, 28), Color::rgb(30, 86, 210)],
 };
 

@@ -15,6 +15,7 @@ mod furniture;
 mod gizmo;
 mod input;
 mod list_cache;
+mod measure;
 mod overlays;
 mod pick;
 mod see_through;
@@ -31,11 +32,12 @@ pub use draw_list::{Align, Arrow, DrawList, Label, Line, Plate, Point, PointShap
 pub use format::{number, with_unit};
 pub use gizmo::{
     Axis, Freedom, Grip, Guide, Handle, Knob, Neighbour, Pivot, Pull, Sides, Subject, Tool, Vector,
-    VectorKind, aligned, fine_step, handle_at, knobs, pull, snap, snap_angle, snap_step, snap_value,
-    touching,
+    VectorKind, aligned, features, fine_step, handle_at, knobs, pull, snap, snap_angle, snap_step,
+    snap_value, touching,
 };
 pub use input::{ViewInput, Viewport};
 pub use list_cache::ListCache;
+pub use measure::{Measurable, Measured};
 pub use overlays::{OVERLAYS, Overlay, OverlaySet, velocity_scale};
 pub use pick::{Hit, pick, pick_outline, pick_rect};
 pub use see_through::is_see_through;

@@ -13,7 +13,7 @@ const LAYERS: [(&str, &[&str]); 13] = [
     ("import", &["scene", "export"]),
     ("record", &["scene", "sim"]),
     ("study", &["random", "scene", "sim", "record"]),
-    ("view", &["scene", "sim", "record", "study"]),
+    ("view", &["scene", "design", "sim", "record", "study"]),
     ("render", &["scene", "sim", "record", "study", "view"]),
     ("editor", &["scene", "import", "design", "sim", "record", "study", "view"]),
     ("gui", &["scene", "export", "import", "design", "sim", "record", "study", "view", "render", "editor"]),

@@ -44,12 +44,17 @@ fn tilted(id: i64, at: DVec3, incline: f64) -> Body {
 /// Two plates that meet at a seam on a slope that falls towards −x, the lower one raised by `step`, and a ball of
 /// 0.3 m on the upper one, 0.45 m before the seam.
 fn seam(incline: f64, step: f64, bounce: f64, speed: f64) -> Scene {
+    bent_seam(incline, step, 0.0, bounce, speed)
+}
+
+/// The same with the lower plate steeper by `kink` radians; it turns about its middle, so the seam has a step too.
+fn bent_seam(incline: f64, step: f64, kink: f64, bounce: f64, speed: f64) -> Scene {
     let (along, normal) =
         (dvec3(incline.cos(), incline.sin(), 0.0), dvec3(-incline.sin(), incline.cos(), 0.0));
     let origin = dvec3(2.0, 2.0, 5.0);
     empty()
         .gravity(-G)
-        .body(tilted(1, origin - 0.5 * along + step * normal, incline))
+        .body(tilted(1, origin - 0.5 * along + step * normal, incline + kink))
         .body(tilted(2, origin + 0.5 * along, incline))
         .body(ball(3, origin + 0.45 * along + 0.3 * normal, -speed * along).radius(0.3).bounce(bounce))
 }
@@ -75,6 +80,28 @@ fn a_ball_slides_over_a_seam_as_over_one_plate() {
                 let expected = speed * until + 0.5 * pull * until * until;
                 let what = format!("{degrees}°, step {step:e}, bounce {bounce}: {} events", events.len());
                 assert!((way - expected).abs() <= 1e-11 + 40.0 * step.abs(), "{what}: {way} of {expected}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_ball_slides_over_a_seam_of_plates_that_are_not_quite_coplanar() {
+    // Expected: as over one plate, but for what the kink costs, of the order of the angle. Feared: two plates that are
+    // coplanar for one test and not for another hand the ball to and fro.
+    for degrees in [0.0, 7.0, 35.0] {
+        for kink in [1e-7, 1e-9, 1e-12, 1e-15, -1e-7, -1e-9, -1e-12, -1e-15] {
+            for bounce in [0.0, 0.5, 1.0] {
+                let incline = f64::to_radians(degrees);
+                let (speed, pull) = (1.0, G * incline.sin());
+                let until = 2.0 * 0.85 / (speed + (speed * speed + 2.0 * pull * 0.85).sqrt());
+                let scene = bent_seam(incline, 0.0, kink, bounce, speed);
+                let (sim, events) = watched(&scene, until, 60);
+                let along = dvec3(incline.cos(), incline.sin(), 0.0);
+                let way = (state_of(&sim, 3).position - scene.bodies[2].position).dot(-along);
+                let expected = speed * until + 0.5 * pull * until * until;
+                let what = format!("{degrees}°, kink {kink:e}, bounce {bounce}: {} events", events.len());
+                assert!((way - expected).abs() <= 1e-11 + 40.0 * kink.abs(), "{what}: {way} of {expected}");
             }
         }
     }

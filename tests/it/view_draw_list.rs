@@ -121,6 +121,8 @@ fn every_overlay_shows_something_and_only_when_asked() {
     let frame = Frame { paths: Arc::new(paths), at_impact: Arc::new(vec![impact]), ..frame };
     let mut input = ViewInput::new(&scene, Camera::default(), viewport());
     input.frame = Some(&frame);
+    let selection = [scene.bodies[0].key, scene.bodies[1].key];
+    input.selection = &selection;
     let size = |overlays| {
         let list = build_draw_list(&ViewInput { overlays, ..input });
         list.lines.len() + list.arrows.len() + list.points.len() + list.labels.len()

@@ -5,8 +5,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use polyscene::scene::{Body, Motion, Shape};
 use polyscene::view::{
-    Axis, Camera, Freedom, Grip, Handle, Neighbour, Projection, Pull, Sides, Subject, Tool, Vector,
-    VectorKind, Viewport, aligned, handle_at, knobs, pull, touching,
+    Axis, Camera, Freedom, Grip, Guide, Handle, Neighbour, Projection, Pull, Sides, Subject, Tool, Vector,
+    VectorKind, Viewport, aligned, features, handle_at, knobs, pull, touching,
 };
 
 const SIZE: Viewport = Viewport { width: 600.0, height: 400.0, pixels_per_point: 1.0 };
@@ -247,9 +247,32 @@ fn a_ball_stops_where_it_touches() {
 fn a_centre_comes_level_with_its_neighbours() {
     let bodies = [ball(1, dvec3(2.0, 1.0, 3.0), 0.2), ball(2, dvec3(9.0, 1.0, 7.0), 0.2)];
     let freedom = Freedom::Plane(DVec3::X, DVec3::Z);
-    let (at, guides) = aligned(dvec3(2.04, 5.0, 6.97), freedom, near(&bodies), 0.05);
+    let (at, guides) = aligned(dvec3(2.04, 5.0, 6.97), &[DVec3::ZERO], freedom, near(&bodies), 0.05);
     assert_eq!(at, dvec3(2.0, 5.0, 7.0));
     assert_eq!(guides.iter().map(|guide| guide.with).collect::<Vec<_>>(), [bodies[0].key, bodies[1].key]);
-    let (at, guides) = aligned(dvec3(4.0, 1.01, 5.0), freedom, near(&bodies), 0.05);
+    let (at, guides) = aligned(dvec3(4.0, 1.01, 5.0), &[DVec3::ZERO], freedom, near(&bodies), 0.05);
     assert_eq!((at, guides.len()), (dvec3(4.0, 1.01, 5.0), 0), "y is not free");
+}
+
+#[test]
+fn a_plate_comes_edge_to_edge_with_its_neighbours() {
+    let plate = |id, at| {
+        let shape = Shape::Plane { half_x: 1.0, half_y: 2.0 };
+        Body { rotation: dvec3(-FRAC_PI_2, 0.0, 0.0), ..Body::new(id, at, Motion::Static, shape) }
+    };
+    let bodies = [plate(1, dvec3(2.0, 0.0, 3.0))];
+    let dragged = plate(2, dvec3(4.03, 0.0, 3.04));
+    let freedom = Freedom::Plane(DVec3::X, DVec3::Z);
+    let (at, guides) = aligned(dragged.position, &features(&dragged), freedom, near(&bodies), 0.05);
+    assert!((at - dvec3(4.0, 0.0, 3.0)).length() < 1e-15, "{at}");
+    assert_eq!(guides.len(), 2);
+    let on_edge = |guide: &Guide| (guide.from.x - 3.0).abs() < 1e-15 && (guide.to.x - 3.0).abs() < 1e-15;
+    assert!(guides.iter().any(on_edge), "{guides:?}");
+}
+
+#[test]
+fn offsets_snap_to_tiles_along_each_axis_by_its_own_side() {
+    let freedom = Freedom::Plane(DVec3::X, DVec3::Z);
+    let offset = freedom.snapped_to_tiles(dvec3(0.3, 0.4, 0.2), dvec3(0.9, 7.0, 0.9), dvec3(0.5, 1.0, 0.75));
+    assert!((offset - dvec3(0.7, 0.0, 0.55)).length() < 1e-15, "{offset}");
 }

@@ -274,7 +274,7 @@ fn motion(ui: &mut Ui, now: &BodyFrame) {
     });
 }
 
-fn row(ui: &mut Ui, [label, axis]: [&str; 2], value: String, unit: &str, help: &str) {
+pub(super) fn row(ui: &mut Ui, [label, axis]: [&str; 2], value: String, unit: &str, help: &str) {
     row_label(ui, label, axis).on_hover_text(help);
     ui.label(mono(value));
     ui.label(RichText::new(unit).color(tones(ui).weak));

@@ -1,5 +1,6 @@
 //! The inspector: every number of what is selected, at the start and now, for one object or several.
 
+mod between;
 mod bodies;
 mod forces;
 pub mod number;
@@ -43,6 +44,7 @@ impl Inspector {
                     }
                     None => {}
                 }
+                between::show(ui, context, shown, keys);
                 if !bodies.is_empty() {
                     bodies::show(ui, context, shown, &bodies, &mut self.texts);
                 }

@@ -385,6 +385,9 @@ impl Pane {
             return;
         }
         if let Some(at) = response.interact_pointer_pos() {
+            let map = &scenery.shown.scene.map;
+            let tile = map.size / glam::UVec3::from_array(map.tiles).as_dvec3();
+            pulling.tiles = self.overlays.contains("tiles").then_some(tile);
             pulling.follow(ui, points(response.rect, at), &input.camera, input.viewport, scenery);
         }
         if asked == Asked::Confirm {

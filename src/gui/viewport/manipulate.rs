@@ -7,8 +7,8 @@ use super::Scenery;
 use crate::editor::{Action, Drag, parse_angle, parse_number};
 use crate::scene::{Body, NodeKey, Shape};
 use crate::view::{
-    Axis, Camera, Grip, Guide, Handle, Neighbour, Pull, Viewport, aligned, fine_step, pull, snap_step,
-    touching,
+    Axis, Camera, Grip, Guide, Handle, Neighbour, Pull, Viewport, aligned, features, fine_step, pull,
+    snap_step, touching,
 };
 
 /// How much of the pointer's way counts while Shift is held.
@@ -34,6 +34,8 @@ pub(super) struct Manipulation {
     pub typed: String,
     pub guides: Vec<Guide>,
     pub snaps: bool,
+    /// Sides of the tiles, m, where they are shown.
+    pub tiles: Option<DVec3>,
 }
 
 /// What the keys did.
@@ -56,6 +58,7 @@ impl Manipulation {
             typed: String::new(),
             guides: Vec::new(),
             snaps: false,
+            tiles: None,
         }
     }
 
@@ -132,7 +135,8 @@ impl Manipulation {
         }
     }
 
-    /// To the surface of a neighbour, else level with one, else to the grid.
+    /// To the surface of a neighbour, else level with one, else to the grid, or to faces and middles of tiles where those
+    /// are shown.
     fn snapped_move(
         &mut self,
         offset: DVec3,
@@ -152,10 +156,14 @@ impl Manipulation {
                 return at - origin;
             }
         }
-        let (level, guides) = aligned(place, freedom, neighbours.iter().copied(), LEVEL_REACH * point);
-        let on_grid = freedom.snapped(origin, offset, snap_step(camera, viewport));
+        let own = self.lead().map_or(vec![DVec3::ZERO], features);
+        let (level, guides) = aligned(place, &own, freedom, neighbours.iter().copied(), LEVEL_REACH * point);
+        let steps = self.tiles.map_or(DVec3::splat(snap_step(camera, viewport)), |tile| 0.5 * tile);
+        let on_grid = freedom.snapped_to_tiles(origin, offset, steps);
         let at = DVec3::select(level.cmpne(place), level, origin + on_grid);
-        self.guides = guides.into_iter().map(|guide| Guide { to: at, ..guide }).collect();
+        // What else snapped, snapped along other axes.
+        let to = |guide: Guide| guide.to + (at - level);
+        self.guides = guides.into_iter().map(|guide| Guide { to: to(guide), ..guide }).collect();
         at - origin
     }
 

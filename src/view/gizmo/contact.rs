@@ -1,5 +1,5 @@
-//! Snapping to what is there: a sphere that is dragged stops where it touches a neighbour, or where its centre
-//! is level with another's.
+//! Snapping to what is there: a sphere that is dragged stops where it touches a neighbour, and everything where its centre or
+//! its edges are level with another's.
 
 use glam::{DMat3, DVec3};
 
@@ -17,9 +17,9 @@ pub struct Neighbour<'a> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Guide {
     pub with: NodeKey,
-    /// The neighbour's centre or the foot on its surface, m.
+    /// The neighbour's centre or corner, or the foot on its surface, m.
     pub from: DVec3,
-    /// The dragged centre.
+    /// The dragged centre or corner.
     pub to: DVec3,
     pub touches: bool,
 }
@@ -50,38 +50,67 @@ pub fn touching<'n>(
     candidates.min_by(|(a, _), (b, _)| a.distance(place).total_cmp(&b.distance(place)))
 }
 
-/// Where a centre at `place` is level with a neighbour's along each of the world's axes that `freedom` has, if
-/// that takes no more than `reach` metres; with a guide for each axis.
+/// What of a body comes level with what of others, relative to its centre, m: the centre, and a plate's corners and so
+/// its edges.
+pub fn features(body: &Body) -> Vec<DVec3> {
+    let mut features = vec![DVec3::ZERO];
+    if let Shape::Plane { half_x, half_y } = body.shape {
+        let turn = rotation_matrix(body.rotation);
+        for (x, y) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
+            features.push(turn * DVec3::new(x * half_x, y * half_y, 0.0));
+        }
+    }
+    features
+}
+
+/// Two features that are level along an axis but for `off`.
+#[derive(Clone, Copy)]
+struct Level<'n> {
+    off: f64,
+    with: &'n Body,
+    own: DVec3,
+    other: DVec3,
+}
+
+/// Where one of the features of a body at `place` is level with one of a neighbour's along each of the world's axes that
+/// `freedom` has, if that takes no more than `reach` metres; with a guide for each axis.
 pub fn aligned<'n>(
     place: DVec3,
+    own: &[DVec3],
     freedom: Freedom,
     neighbours: impl IntoIterator<Item = Neighbour<'n>>,
     reach: f64,
 ) -> (DVec3, Vec<Guide>) {
     let axes: Vec<Axis> = freedom.directions().filter_map(Axis::of_unit).collect();
-    let mut best: [Option<(f64, Neighbour<'n>)>; 3] = [None; 3];
+    let mut best: [Option<Level<'n>>; 3] = [None; 3];
     for neighbour in neighbours {
-        for axis in &axes {
-            let at = *axis as usize;
-            let off = (neighbour.position[at] - place[at]).abs();
-            if off <= reach && best[at].is_none_or(|(least, _)| off < least) {
-                best[at] = Some((off, neighbour));
+        for other in features(neighbour.body) {
+            let other = neighbour.position + other;
+            for axis in axes.iter().map(|axis| *axis as usize) {
+                for &own in own {
+                    let off = other[axis] - (place + own)[axis];
+                    // The nearer counts, and centres before corners, which come first.
+                    let is_nearer = best[axis].is_none_or(|best| off.abs() < best.off.abs() - 1e-9 * reach);
+                    if off.abs() <= reach && is_nearer {
+                        best[axis] = Some(Level { off, with: neighbour.body, own, other });
+                    }
+                }
             }
         }
     }
-    let mut level = place;
-    for axis in &axes {
-        if let Some((_, neighbour)) = best[*axis as usize] {
-            level[*axis as usize] = neighbour.position[*axis as usize];
+    let mut at = place;
+    for axis in axes.iter().map(|axis| *axis as usize) {
+        if let Some(level) = best[axis] {
+            at[axis] = level.other[axis] - level.own[axis];
         }
     }
-    let guide = |(_, neighbour): (f64, Neighbour<'n>)| Guide {
-        with: neighbour.body.key,
-        from: neighbour.position,
-        to: level,
+    let guide = |level: Level<'_>| Guide {
+        with: level.with.key,
+        from: level.other,
+        to: at + level.own,
         touches: false,
     };
-    (level, best.into_iter().flatten().map(guide).collect())
+    (at, best.into_iter().flatten().map(guide).collect())
 }
 
 /// The nearest place of the line or plane through `place` at `distance` from a centre.

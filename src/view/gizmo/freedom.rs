@@ -74,7 +74,12 @@ impl Freedom {
     /// An offset from `origin` of which nothing leads out of this line or plane, and whose end lies on
     /// multiples of `step`: of the coordinates along the world's axes, of the way along others.
     pub fn snapped(self, origin: DVec3, offset: DVec3, step: f64) -> DVec3 {
-        self.directions().fold(DVec3::ZERO, |sum, unit| sum + snapped_along(unit, origin, offset, step))
+        self.snapped_to_tiles(origin, offset, DVec3::splat(step))
+    }
+
+    /// The same with a step of its own along each axis; the shortest counts along other ways.
+    pub fn snapped_to_tiles(self, origin: DVec3, offset: DVec3, steps: DVec3) -> DVec3 {
+        self.directions().fold(DVec3::ZERO, |sum, unit| sum + snapped_along(unit, origin, offset, steps))
     }
 
     /// Only what leads along this line or plane.
@@ -92,13 +97,13 @@ impl Freedom {
     }
 }
 
-fn snapped_along(unit: DVec3, origin: DVec3, offset: DVec3, step: f64) -> DVec3 {
+fn snapped_along(unit: DVec3, origin: DVec3, offset: DVec3, steps: DVec3) -> DVec3 {
     match Axis::of_unit(unit) {
         Some(axis) => {
             let from = origin[axis as usize];
-            axis.unit() * (snap_value(from + offset[axis as usize], step) - from)
+            axis.unit() * (snap_value(from + offset[axis as usize], steps[axis as usize]) - from)
         }
-        None => unit * snap_value(offset.dot(unit), step),
+        None => unit * snap_value(offset.dot(unit), steps.min_element()),
     }
 }
 

@@ -9,7 +9,7 @@ mod pull;
 mod snap;
 
 pub use axis::Axis;
-pub use contact::{Guide, Neighbour, aligned, touching};
+pub use contact::{Guide, Neighbour, aligned, features, touching};
 pub use freedom::Freedom;
 pub use handles::{Handle, Knob, Pivot, Sides, Subject, Tool, Vector, VectorKind, handle_at, knobs};
 pub use pull::{Grip, Pull, pull};

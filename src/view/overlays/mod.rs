@@ -3,6 +3,7 @@
 mod at_impact;
 mod bounds;
 mod contacts;
+mod distances;
 mod force_chains;
 mod forces;
 mod grid;
@@ -118,6 +119,13 @@ pub const OVERLAYS: &[Overlay] = &[
         help: "Where the moving bodies were in the last second, and are in the next as far as that is recorded.",
         default_on: false,
         add: paths::add,
+    },
+    Overlay {
+        id: "distances",
+        label: "Distances",
+        help: "Between two to four things that are selected: gap, way between centres, angle.",
+        default_on: true,
+        add: distances::add,
     },
     Overlay {
         id: "labels",
