@@ -19,6 +19,8 @@ pub enum Action {
     },
     /// The text of the whole file, edited by hand.
     ReplaceText(String),
+    /// That text while it is typed; `None` once it is the document's again.
+    KeepDraft(Option<Arc<str>>),
     /// The drag was dropped, the text field left.
     EndGesture,
     /// Escape during a drag: the document is again as it was before.

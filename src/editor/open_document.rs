@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::copies::LastCopies;
 use super::disk::DiskStamp;
 use super::history::History;
+use super::text_edit::TextDraft;
 use super::trouble_list::TroubleList;
 use crate::scene::{Document, escaped};
 
@@ -13,6 +14,10 @@ pub(super) struct OpenDocument {
     pub file: OpenFile,
     /// The document as its file holds it, if it has one.
     pub saved: Option<Document>,
+    /// The text that is typed and not applied.
+    pub draft: Option<TextDraft>,
+    /// How many drafts there were.
+    pub drafts: u64,
     /// Grows with every document that replaces another.
     pub opened: u64,
     /// The copies made last.
@@ -38,6 +43,8 @@ impl OpenDocument {
             saved: saved.then(|| document.clone()),
             history: History::new(document, saved),
             file,
+            draft: None,
+            drafts: 0,
             opened: 0,
             last_copies: None,
             troubles: TroubleList::default(),

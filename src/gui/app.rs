@@ -143,7 +143,7 @@ impl App {
         self.views.redraws()
     }
 
-    /// What happened since the last turn: frames, keys, dropped files, a wish to close.
+    /// What happened since the last turn: frames, keys, dropped files.
     fn begin(&mut self, ctx: &Context) {
         // whatever was dragged or picked, it is over when no button is held
         if self.session.open_gesture().is_some() && !ctx.input(|input| input.pointer.any_down()) {
@@ -160,10 +160,10 @@ impl App {
         if !blocked {
             shortcuts::collect(ctx, &self.outbox, self.views.have_focus(ctx), self.was_typing);
         }
-        let (dropped, focused, closing) = ctx.input(|input| {
+        let (dropped, focused) = ctx.input(|input| {
             let dropped = input.raw.dropped_files.first().map(|file| file.path().to_owned());
             let focused = input.events.contains(&egui::Event::WindowFocused(true));
-            (dropped, focused, input.viewport().close_requested())
+            (dropped, focused)
         });
         if let Some(path) = dropped {
             self.outbox.act(Action::OpenPath(path));
@@ -171,12 +171,18 @@ impl App {
         if focused {
             self.outbox.act(Action::LookAtDisk);
         }
-        // a window for a script keeps nothing, so there is nothing to ask about
-        if closing && self.session.is_dirty() && !self.forgetful {
+        self.set_title(ctx);
+    }
+
+    /// Asks before a wish to close loses something, also what was typed in this very turn. A window for a script keeps
+    /// nothing, so there is nothing to ask about.
+    fn guard_closing(&mut self, ctx: &Context) {
+        let closing = ctx.input(|input| input.viewport().close_requested());
+        if closing && self.session.has_unsaved_work() && !self.forgetful {
             ctx.send_viewport_cmd(ViewportCommand::CancelClose);
             self.outbox.command(SessionCommand::Quit);
+            ctx.request_repaint();
         }
-        self.set_title(ctx);
     }
 
     /// Notices that the document is another one.
@@ -271,9 +277,8 @@ impl App {
             match request {
                 Request::SetClipboard(text) => ctx.copy_text(text),
                 Request::ReadClipboard => ctx.send_viewport_cmd(ViewportCommand::RequestPaste),
-                Request::Quit => {
-                    ctx.send_viewport_cmd(ViewportCommand::Close);
-                }
+                Request::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
+                Request::ShowText => self.dock.show_tall(Panel::Xml, TALL),
                 file => self.dialogs.ask_for_file(ctx, &file),
             }
         }
@@ -423,6 +428,7 @@ impl eframe::App for App {
         self.begin(&ctx);
         self.show(ui);
         self.carry_out(&ctx);
+        self.guard_closing(&ctx);
         self.schedule(&ctx);
         self.pace.frame_s = started.elapsed().as_secs_f64();
         self.was_typing = ctx.text_edit_focused();
