@@ -44,6 +44,8 @@ pub enum Action {
     GoToBookmark(usize),
     RenameBookmark(usize, String),
     RemoveBookmark(usize),
+    /// Whether frames have the motion that is recorded now.
+    ShareMotion(bool),
     /// Bytes that the recording may take.
     SetMemory(usize),
 
@@ -53,6 +55,9 @@ pub enum Action {
     SetSpeed(f64),
     /// Another method than before goes back to the start.
     SetMethod(Method),
+
+    /// Gives up comparing the run with the recording that was opened.
+    StopVerification,
 
     /// A file was chosen, dropped on the window or named on the command line.
     OpenPath(PathBuf),

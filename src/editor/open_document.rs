@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use super::copies::LastCopies;
 use super::disk::DiskStamp;
 use super::history::History;
-use super::text_edit::TextDraft;
+use super::text_draft::TextDraft;
 use super::trouble_list::TroubleList;
+use super::verification::Verification;
 use crate::scene::{Document, escaped};
 
 pub(super) struct OpenDocument {
@@ -20,6 +21,8 @@ pub(super) struct OpenDocument {
     pub drafts: u64,
     /// Grows with every document that replaces another.
     pub opened: u64,
+    /// The comparison with the recording that it came from.
+    pub verification: Option<Verification>,
     /// The copies made last.
     pub last_copies: Option<LastCopies>,
     /// What is wrong with the scene, by the document it was found in.
@@ -46,6 +49,7 @@ impl OpenDocument {
             draft: None,
             drafts: 0,
             opened: 0,
+            verification: None,
             last_copies: None,
             troubles: TroubleList::default(),
         }

@@ -9,7 +9,7 @@ use super::disk::{DiskStamp, has_changed};
 use super::disk_watch::DiskWatch;
 use super::open_document::OpenFile;
 use super::scene_changes::changes;
-use super::text_edit::TextDraft;
+use super::text_draft::TextDraft;
 use super::{Notice, Session};
 
 impl Session {

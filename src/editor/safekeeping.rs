@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use super::dialogue::Question;
 use super::recovered::{self, Recovered};
-use super::text_edit::TextDraft;
+use super::text_draft::TextDraft;
 use super::{Notice, Session};
 
 /// Least time between two copies: what a crash may cost.

@@ -3,25 +3,9 @@
 use std::sync::Arc;
 
 use super::dialogue::{Intent, Question};
+use super::text_draft::TextDraft;
 use super::{Outcome, Session};
 use crate::scene::{Diagnostic, Document};
-
-/// Text that was typed and not applied yet.
-pub(super) struct TextDraft {
-    text: Arc<str>,
-    /// Differs for every text of one document.
-    pub revision: u64,
-}
-
-impl TextDraft {
-    pub fn text(&self) -> &str {
-        &self.text
-    }
-
-    pub fn into_text(self) -> Arc<str> {
-        self.text
-    }
-}
 
 impl Session {
     /// The text of the file as it is being typed, if it differs from the document.
@@ -38,7 +22,7 @@ impl Session {
     pub(super) fn keep_draft(&mut self, text: Option<Arc<str>>) {
         self.doc.drafts += 1;
         let revision = self.doc.drafts;
-        self.doc.draft = text.map(|text| TextDraft { text, revision });
+        self.doc.draft = text.map(|text| TextDraft::new(text, revision));
     }
 
     /// The question that comes before a draft is lost.

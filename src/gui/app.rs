@@ -26,7 +26,7 @@ use super::xml::XmlPane;
 use super::{menu, shortcuts, start, status, theme};
 use crate::design::TOOLS;
 use crate::editor::{
-    Action, Command, Notice, Outcome, Request, Session, SessionCommand, Storage, WindowCommand,
+    Action, Command, Notice, Outcome, Request, Session, SessionCommand, Storage, Verified, WindowCommand,
 };
 use crate::record::Runner;
 use crate::scene::shown_path;
@@ -225,6 +225,7 @@ impl App {
             outbox: &self.outbox,
         };
         self.problems.refresh(&context);
+        self.ledger.finish_writing(&ctx, &context);
         let bar = |margin| egui::Frame::side_top_panel(ui.style()).inner_margin(margin);
         let (menu_bar, tool_bar) = (bar(egui::Margin::symmetric(6, 2)), bar(egui::Margin::symmetric(6, 3)));
         let flush = bar(egui::Margin::ZERO);
@@ -401,10 +402,12 @@ impl App {
         run(&mut self.views, &context)
     }
 
-    /// An idle window stays idle: the only clocks are an edit that settles and the recovery copy.
+    /// An idle window stays idle: the only clocks are an edit that settles, a comparison and the recovery copy.
     fn schedule(&self, ctx: &Context) {
         if self.session.open_gesture().is_some() {
             ctx.request_repaint_after(Duration::from_millis(160));
+        } else if matches!(self.session.verified(), Some(Verified::Part(_))) {
+            ctx.request_repaint_after(Duration::from_millis(100));
         } else if self.session.wants_recovery_copy() {
             ctx.request_repaint_after(crate::editor::RECOVERY_INTERVAL);
         }
