@@ -164,6 +164,8 @@ def check_mujoco(program, work, scenes):
         flight(mujoco, program, work, next(s for s in scenes if str(s).endswith("/" + name)))
     for one, other in [(1, 1), (1, 0.8), (0.9, 0.5), (0.5, 0.4)]:
         bounce(mujoco, program, work, one, other)
+    for one, other in [(0.02, 0.02), (0.01, 0.04), (0.05, 0), (0, 0)]:
+        rolling(mujoco, program, work, one, other)
 
 
 def foreign(mujoco, program, work):
@@ -241,6 +243,38 @@ def bounce(mujoco, program, work, one, other):
     print(f"  bounce {one} on {other}: e = {restitution:.3f} instead of {one * other:.3f}")
     if not abs(restitution - one * other) <= BOUNCE_TOLERANCE:
         fail(f"restitution {restitution} instead of {one * other}")
+
+
+ROLLING = """<PolyPhysicsXml Version="1.1"><Map><Size X="4" Y="4" Z="4" /><Tiles X="4" Y="4" Z="4" /></Map>
+<Simulation><Forces><GravityPlane UserID="1"><Translation X="0" Y="0" Z="0" /><Gravity X="0" Y="-9.8" Z="0" />
+</GravityPlane></Forces></Simulation><Primitives><HardObject UserID="1"><Translation X="2" Y="0" Z="2" />
+<Rotation X="-1.5707963267948966" Y="0" Z="0" /><Bounce F32="0" /><Friction F32="0.5" /><RollingFriction F32="{}" />
+<Plane><HalfSideX F32="2" /><HalfSideY F32="2" /></Plane></HardObject><SoftObject UserID="2">
+<Translation X="1" Y="0.1" Z="2" /><Bounce F32="0.5" /><Friction F32="0.5" /><RollingFriction F32="{}" />
+<InitialAngularVelocity X="0" Y="0" Z="-10" /><InitialVelocity X="1" Y="0" Z="0" />
+<Sphere><Radius F32="0.1" /></Sphere></SoftObject></Primitives></PolyPhysicsXml>
+"""
+
+# Of the share of the load that slows a ball; its contact gives way.
+ROLLING_TOLERANCE = 0.02
+
+
+def rolling(mujoco, program, work, one, other):
+    """A ball that rolls for a second: what it loses of its speed is its coefficient times g."""
+    scene, path = work / "one-roll.xml", work / "one-roll.mjcf.xml"
+    scene.write_text(ROLLING.format(one, other))
+    if not export(program, scene, "mjcf", path):
+        return
+    model = mujoco.MjModel.from_xml_path(str(path))
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, 0)
+    while data.time < 1.0:
+        mujoco.mj_step(model, data)
+    expected = math.sqrt(one * other)
+    found = (1 - data.qvel[0]) / 9.8 / data.time
+    print(f"  rolling friction {one} on {other}: {found:.4f} instead of {expected:.4f}")
+    if not abs(found - expected) <= ROLLING_TOLERANCE * expected + 1e-4:
+        fail(f"rolling friction {found} instead of {expected}")
 
 
 # ---------------------------------------------------------------- USD

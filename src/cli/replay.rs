@@ -9,7 +9,10 @@ use clap::Args;
 use super::limits::LimitArgs;
 use super::output::LineSink;
 use super::{CliError, input, number};
-use crate::record::{Frame, InlineRunner, MOST_BYTES, RecordingFile, RunCommand, RunState, Runner as _};
+use crate::record::{
+    Compared, Frame, InlineRunner, MOST_BYTES, RecordingFile, Rerun, RerunError, RunCommand, RunState,
+    Runner as _,
+};
 use crate::sim::Fault;
 
 /// Run a recording again
@@ -47,34 +50,47 @@ pub struct ReplayArgs {
 
 pub(super) fn replay(args: &ReplayArgs) -> Result<(), CliError> {
     let name = input::display_name(&args.file);
-    let wrong = |error: crate::record::RecordingError| CliError::Usage(format!("{name}: {error}"));
-    let file = RecordingFile::read(&read(&args.file)?).map_err(wrong)?;
-    let document = file.document().map_err(wrong)?;
-    let scene = RecordingFile::scene(&document).map_err(wrong)?;
-    let commands = file.commands(&scene).map_err(wrong)?;
+    let of = |error: RerunError| stopped(&name, error);
+    let file = RecordingFile::read(&read(&args.file)?).map_err(|error| of(error.into()))?;
     let _watchdog = args.limits.watchdog();
-    let mut runner = InlineRunner::limited(args.limits.limits());
-    runner.send(RunCommand::Method(file.method().map_err(wrong)?));
-    runner.send(RunCommand::Load(Arc::new(scene)));
-    for command in commands {
-        runner.send(command);
-        stop_at_limit(&runner)?;
-    }
-    let end = runner.frame();
-    refuse_other_end(&name, &file, &end)?;
+    let mut rerun = Rerun::of(file, args.limits.limits(), &mut |_| true).map_err(of)?;
     if args.verify {
-        let count = verify(&mut runner, &file)?;
-        super::say(format!("{name}: {count} states are the same, recorded by version {}", file.build));
+        let compared = rerun.verify(&mut |_| true).map_err(of)?;
+        say_compared(&name, compared, &rerun.file().build);
     }
-    let frame = go_to(&mut runner, args)?;
+    let scene_name = rerun.file().scene_name.clone();
+    let runner = rerun.runner();
+    let frame = go_to(runner, args)?;
     super::say(format!(
-        "{name}: {} at {} s, {} events, hash {:016x}",
-        file.scene_name,
+        "{name}: {scene_name} at {} s, {} events, hash {:016x}",
         frame.time,
         frame.event_count,
         runner.hash().unwrap_or_default()
     ));
     write_events(args, &frame)
+}
+
+fn say_compared(name: &str, compared: Compared, build: &str) {
+    let Compared { same, left_out } = compared;
+    super::say(format!("{name}: {same} states are the same, recorded by version {build}"));
+    if left_out > 0 {
+        super::say(format!(
+            "{name}: {left_out} states before them were too early to be kept, and were not compared"
+        ));
+    }
+}
+
+/// Why the run did not come to its end, or is another one.
+fn stopped(name: &str, error: RerunError) -> CliError {
+    match error {
+        RerunError::Exceeded { time, why } => CliError::Unwritten { time, why },
+        RerunError::Parted { time, message } => {
+            CliError::Fault(Fault { time, message: format!("{name}: {message}"), key: None })
+        }
+        RerunError::Cancelled { .. } | RerunError::Recording(_) => {
+            CliError::Usage(format!("{name}: {error}"))
+        }
+    }
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, CliError> {
@@ -92,49 +108,6 @@ fn read(path: &Path) -> Result<Vec<u8>, CliError> {
             .map_err(unreadable)?;
     }
     Ok(bytes)
-}
-
-fn stop_at_limit(runner: &InlineRunner) -> Result<(), CliError> {
-    match runner.exceeded() {
-        Some(why) => Err(CliError::Unwritten { time: runner.frame().time, why }),
-        None => Ok(()),
-    }
-}
-
-/// The run has to come to the recorded end.
-fn refuse_other_end(name: &str, file: &RecordingFile, end: &Frame) -> Result<(), CliError> {
-    let (time, events) = (file.end.time, file.end.event);
-    let fault = |message: String| Err(CliError::Fault(Fault { time: end.time, message, key: None }));
-    match (&end.fault, end.state) {
-        (_, RunState::Faulted) if end.time == time => Ok(()),
-        (Some(message), _) => fault(format!("{name} cannot be run again: {message}")),
-        (None, _) if (end.time, end.event_count) != (time, events) => fault(format!(
-            "{name} came to t = {} s with {} events where {time} s and {events} were recorded",
-            end.time, end.event_count
-        )),
-        (None, _) => Ok(()),
-    }
-}
-
-/// Compares the states with those of the file; how many there are.
-fn verify(runner: &mut InlineRunner, file: &RecordingFile) -> Result<usize, CliError> {
-    let mut last = 0.0;
-    for checkpoint in &file.checkpoints {
-        runner.send(RunCommand::Show(checkpoint.at));
-        stop_at_limit(runner)?;
-        let hash = runner.hash().map(|hash| format!("{hash:016x}"));
-        let frame = runner.frame();
-        if hash.as_deref() != Some(checkpoint.hash.as_str()) || frame.fault.is_some() {
-            let (event, time) = (checkpoint.at.event, checkpoint.at.time);
-            let why = frame.fault.clone().unwrap_or_else(|| "the state is another one".to_owned());
-            let message = format!(
-                "the run parts from the recording after t = {last} s and before {time} s, event {event}: {why}"
-            );
-            return Err(CliError::Fault(Fault { time, message, key: None }));
-        }
-        last = checkpoint.at.time;
-    }
-    Ok(file.checkpoints.len())
 }
 
 /// To where the command line says, else to the end.

@@ -19,6 +19,8 @@ pub enum Action {
     },
     /// The text of the whole file, edited by hand.
     ReplaceText(String),
+    /// That text while it is typed; `None` once it is the document's again.
+    KeepDraft(Option<Arc<str>>),
     /// The drag was dropped, the text field left.
     EndGesture,
     /// Escape during a drag: the document is again as it was before.
@@ -42,6 +44,8 @@ pub enum Action {
     GoToBookmark(usize),
     RenameBookmark(usize, String),
     RemoveBookmark(usize),
+    /// Whether frames have the motion that is recorded now.
+    ShareMotion(bool),
     /// Bytes that the recording may take.
     SetMemory(usize),
 
@@ -51,6 +55,9 @@ pub enum Action {
     SetSpeed(f64),
     /// Another method than before goes back to the start.
     SetMethod(Method),
+
+    /// Gives up comparing the run with the recording that was opened.
+    StopVerification,
 
     /// A file was chosen, dropped on the window or named on the command line.
     OpenPath(PathBuf),

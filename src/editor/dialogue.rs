@@ -24,6 +24,8 @@ pub enum Intent {
 /// A question that blocks until it is answered.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Question {
+    /// Text was typed and not applied, and `then` would lose it. `problem` says why it is no scene.
+    UnappliedText { title: String, problem: Option<String>, then: Intent },
     /// The document has unsaved changes and `then` would lose them.
     UnsavedChanges { title: String, then: Intent },
     /// The file changed since it was read or written, and saving would lose that.
@@ -38,6 +40,7 @@ pub enum Question {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Answer {
+    Apply,
     Save,
     SaveAs,
     Overwrite,
@@ -69,6 +72,8 @@ pub enum Request {
         title: String,
         report: Arc<ImportReport>,
     },
+    /// Brings the text of the file to the front: there is something typed in it.
+    ShowText,
     SetClipboard(String),
     /// Answered by [`super::Action::Paste`].
     ReadClipboard,
@@ -78,6 +83,7 @@ pub enum Request {
 impl Question {
     pub fn title(&self) -> &'static str {
         match self {
+            Self::UnappliedText { .. } => "Text not applied",
             Self::UnsavedChanges { .. } => "Unsaved changes",
             Self::ChangedOnDisk { .. } => "File changed on disk",
             Self::Reload { .. } => "Read the file again?",
@@ -88,6 +94,12 @@ impl Question {
 
     pub fn text(&self) -> String {
         match self {
+            Self::UnappliedText { title, problem: None, .. } => {
+                format!("What you typed in the text of “{title}” is not applied to the scene.")
+            }
+            Self::UnappliedText { title, problem: Some(problem), .. } => format!(
+                "What you typed in the text of “{title}” cannot be applied yet, for it has errors:\n{problem}"
+            ),
             Self::UnsavedChanges { title, .. } => format!("“{title}” has changes that are not saved."),
             Self::ChangedOnDisk { path, .. } => format!(
                 "Another program changed or removed {} after it was opened here. Saving would replace what \
@@ -112,10 +124,11 @@ impl Question {
                 format!("{}:{problem}{others}.", shown_path(path))
             }
             Self::Recover(found) => format!(
-                "The last session ended without saving “{}” ({}). Restoring opens that work; the file itself \
+                "The last session ended without saving “{}” ({}). Restoring opens that work{}; the file itself \
                  is not touched until you save.",
                 found.title(),
-                found.age_text()
+                found.age_text(),
+                if found.has_draft() { ", with the text that was not applied" } else { "" }
             ),
         }
     }
@@ -123,6 +136,8 @@ impl Question {
     /// The safe answer comes first.
     pub fn answers(&self) -> &'static [Answer] {
         match self {
+            Self::UnappliedText { problem: None, .. } => &[Answer::Apply, Answer::Discard, Answer::Cancel],
+            Self::UnappliedText { problem: Some(_), .. } => &[Answer::Cancel, Answer::Discard],
             Self::UnsavedChanges { .. } => &[Answer::Save, Answer::Discard, Answer::Cancel],
             Self::ChangedOnDisk { .. } => &[Answer::SaveAs, Answer::Overwrite, Answer::Cancel],
             Self::Reload { unsaved: false, .. } => &[Answer::Reload, Answer::NotNow],
@@ -135,9 +150,10 @@ impl Question {
     /// What Escape and closing the dialog mean.
     pub fn dismissal(&self) -> Answer {
         match self {
-            Self::UnsavedChanges { .. } | Self::ChangedOnDisk { .. } | Self::CannotImport { .. } => {
-                Answer::Cancel
-            }
+            Self::UnappliedText { .. }
+            | Self::UnsavedChanges { .. }
+            | Self::ChangedOnDisk { .. }
+            | Self::CannotImport { .. } => Answer::Cancel,
             Self::Recover(_) => Answer::Later,
             Self::Reload { .. } => Answer::NotNow,
         }
@@ -147,6 +163,7 @@ impl Question {
 impl Answer {
     pub fn label(self) -> &'static str {
         match self {
+            Self::Apply => "Apply",
             Self::Save => "Save",
             Self::SaveAs => "Save as…",
             Self::Overwrite => "Overwrite",

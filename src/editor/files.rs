@@ -11,9 +11,17 @@ use crate::import;
 use crate::scene::{Document, shown_path};
 
 impl Session {
-    /// Does `intent`, after asking when it would lose unsaved changes.
+    /// Does `intent`, after asking when it would lose text that is not applied or changes that are not saved.
     pub(super) fn ask_then(&mut self, intent: Intent) {
         self.settle();
+        match self.question_of_draft(&intent) {
+            Some(question) => self.talk.question = Some(question),
+            None => self.ask_to_save_then(intent),
+        }
+    }
+
+    /// A draft goes only once `intent` is done: until then all can be cancelled.
+    fn ask_to_save_then(&mut self, intent: Intent) {
         if self.is_dirty() {
             self.talk.question =
                 Some(Question::UnsavedChanges { title: self.doc.file.title.clone(), then: intent });
@@ -23,13 +31,17 @@ impl Session {
     }
 
     /// Takes the answer to the open question. One that the question does not offer changes nothing.
-    pub(super) fn answer(&mut self, answer: Answer) {
+    pub(super) fn answer(&mut self, answer: Answer) -> Outcome {
         let offered =
             self.talk.question.as_ref().is_some_and(|question| question.answers().contains(&answer));
         if !offered {
-            return;
+            return Outcome::Done;
         }
         match (self.talk.question.take(), answer) {
+            (Some(Question::UnappliedText { then, .. }), Answer::Apply) => {
+                return self.apply_draft_then(then);
+            }
+            (Some(Question::UnappliedText { then, .. }), Answer::Discard) => self.ask_to_save_then(then),
             (Some(Question::UnsavedChanges { then, .. }), Answer::Save) => self.save(Some(then)),
             (Some(Question::UnsavedChanges { then, .. }), Answer::Discard) => self.carry_on(then),
             (Some(Question::ChangedOnDisk { path, then }), Answer::Overwrite) => self.write(&path, then),
@@ -46,6 +58,7 @@ impl Session {
             // Cancel and Later: everything stays as it is
             _ => {}
         }
+        Outcome::Done
     }
 
     pub(super) fn carry_on(&mut self, intent: Intent) {
@@ -62,6 +75,7 @@ impl Session {
             Intent::ImportWithout(path) => self.open_foreign(&path, &Document::open(&path), true),
             Intent::Restore(found) => self.restore(&found),
             Intent::Quit => {
+                self.talk.ends = true;
                 self.forget_recovery();
                 self.talk.requests.push(Request::Quit);
             }
@@ -121,8 +135,14 @@ impl Session {
             Some(path) => OpenFile::at(path, found.stamp),
             None => OpenFile::untitled(found.title()),
         };
-        self.replace(Document::from_bytes(&bytes), file, false);
-        self.doc.saved = found.path.as_deref().map(Document::open);
+        let in_file = found.path.as_deref().map(Document::open);
+        let is_saved = in_file.as_ref().is_some_and(|saved| saved.to_bytes() == bytes);
+        self.replace(Document::from_bytes(&bytes), file, is_saved);
+        self.doc.saved = in_file;
+        if let Some(draft) = found.draft() {
+            self.keep_draft(Some(draft.into()));
+            self.talk.requests.push(Request::ShowText);
+        }
         // the old copy goes only when this run has its own
         match self.write_recovery() {
             Ok(()) => found.forget(),
@@ -187,7 +207,7 @@ impl Session {
         self.doc.history.mark_saved();
         self.doc.saved = Some(self.document().clone());
         self.doc.file = OpenFile::at(path, DiskStamp::of(path).ok());
-        self.forget_recovery();
+        self.renew_recovery();
         self.remember(path);
         self.claim_file();
         self.talk.notices.push(Notice::info(format!("Saved {}", self.doc.file.title)));

@@ -48,9 +48,11 @@ mod sync;
 mod talk;
 mod text;
 mod text_diff;
+mod text_draft;
 mod text_edit;
 mod travel;
 mod trouble_list;
+mod verification;
 
 pub use action::Action;
 pub use catalog::{COMMANDS, info};
@@ -79,3 +81,4 @@ pub use settings::{EditorSettings, Storage};
 pub use text::DocumentText;
 pub use text_diff::{DiffLine, diff};
 pub use travel::{Bookmark, Travel};
+pub use verification::Verified;

@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 use super::copies::LastCopies;
 use super::disk::DiskStamp;
 use super::history::History;
+use super::text_draft::TextDraft;
 use super::trouble_list::TroubleList;
+use super::verification::Verification;
 use crate::scene::{Document, escaped};
 
 pub(super) struct OpenDocument {
@@ -13,8 +15,14 @@ pub(super) struct OpenDocument {
     pub file: OpenFile,
     /// The document as its file holds it, if it has one.
     pub saved: Option<Document>,
+    /// The text that is typed and not applied.
+    pub draft: Option<TextDraft>,
+    /// How many drafts there were.
+    pub drafts: u64,
     /// Grows with every document that replaces another.
     pub opened: u64,
+    /// The comparison with the recording that it came from.
+    pub verification: Option<Verification>,
     /// The copies made last.
     pub last_copies: Option<LastCopies>,
     /// What is wrong with the scene, by the document it was found in.
@@ -38,7 +46,10 @@ impl OpenDocument {
             saved: saved.then(|| document.clone()),
             history: History::new(document, saved),
             file,
+            draft: None,
+            drafts: 0,
             opened: 0,
+            verification: None,
             last_copies: None,
             troubles: TroubleList::default(),
         }

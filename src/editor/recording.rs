@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::open_document::OpenFile;
 use super::travel::Bookmark;
+use super::verification::{Verification, Verified};
 use super::{Notice, Request, Session};
 use crate::record::{MOST_BYTES, NamedMoment, RecordingError, RecordingFile, RunCommand, WriteRequest};
 use crate::scene::{Document, shown_path};
@@ -58,12 +59,28 @@ impl Session {
             self.run.go_on(command);
         }
         let mark = |mark: NamedMoment| Bookmark { name: mark.name, time: mark.time, event: mark.event };
-        self.travel.set_bookmarks(file.bookmarks.into_iter().map(mark).collect());
-        let text = format!(
-            "Runs again what was recorded up to {:.6} s. polyscene replay --verify compares it with the recording",
-            file.end.time
-        );
+        self.travel.set_bookmarks(file.bookmarks.iter().cloned().map(mark).collect());
+        let text = format!("Runs again what was recorded up to {:.6} s, and compares it", file.end.time);
         self.talk.notices.push(Notice::info(text));
+        self.doc.verification = Some(Verification::start(file));
+    }
+
+    /// How the run of a recording that was opened compares with it; `None` for a scene.
+    pub fn verified(&self) -> Option<Verified> {
+        self.doc.verification.as_ref().map(Verification::state)
+    }
+
+    /// Once per turn of the window.
+    pub(super) fn follow_verification(&mut self) {
+        let notice = self.doc.verification.as_mut().and_then(Verification::take);
+        self.talk.notices.extend(notice);
+    }
+
+    /// Gives a comparison up.
+    pub(super) fn stop_verification(&mut self) {
+        if let Some(verification) = &self.doc.verification {
+            verification.stop();
+        }
     }
 }
 

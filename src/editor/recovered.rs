@@ -1,4 +1,4 @@
-//! Unsaved work that an earlier run left: `recovery/<run>.{xml,json,lock}`, described by the JSON file.
+//! Unsaved work that an earlier run left: `recovery/<run>.{xml,draft,json,lock}`, described by the JSON file.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -20,18 +20,30 @@ pub struct Recovered {
     pub(super) path: Option<PathBuf>,
     title: String,
     pub(super) stamp: Option<DiskStamp>,
+    /// Whether there is text that was typed and not applied.
+    #[serde(default)]
+    has_draft: bool,
     /// Seconds since 1970.
     saved_at_s: u64,
 }
 
 impl Recovered {
     /// About a copy that is made now.
-    pub(super) fn now(path: Option<PathBuf>, title: String, stamp: Option<DiskStamp>) -> Self {
-        Self { base: PathBuf::new(), path, title, stamp, saved_at_s: now_s() }
+    pub(super) fn now(
+        path: Option<PathBuf>,
+        title: String,
+        stamp: Option<DiskStamp>,
+        has_draft: bool,
+    ) -> Self {
+        Self { base: PathBuf::new(), path, title, stamp, has_draft, saved_at_s: now_s() }
     }
 
     pub fn title(&self) -> &str {
         &self.title
+    }
+
+    pub fn has_draft(&self) -> bool {
+        self.has_draft
     }
 
     /// Such as `3 minutes ago`.
@@ -48,6 +60,12 @@ impl Recovered {
 
     pub(super) fn bytes(&self) -> std::io::Result<Vec<u8>> {
         std::fs::read(self.base.with_extension("xml"))
+    }
+
+    /// The text that was typed and not applied.
+    pub(super) fn draft(&self) -> Option<String> {
+        let bytes = std::fs::read(self.base.with_extension("draft")).ok().filter(|_| self.has_draft)?;
+        Some(String::from_utf8_lossy(&bytes).into_owned())
     }
 
     pub(super) fn forget(&self) {
@@ -78,7 +96,7 @@ fn is_alive(lock: &Path) -> bool {
 
 /// Removes the files of a copy.
 pub(super) fn remove_files(base: &Path) {
-    for extension in ["json", "xml", "lock"] {
+    for extension in ["json", "xml", "draft", "lock"] {
         // what is not there needs no removing
         let _ = std::fs::remove_file(base.with_extension(extension));
     }

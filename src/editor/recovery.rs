@@ -13,8 +13,8 @@ use crate::scene::write_private;
 pub(super) struct Recovery {
     pub(super) folder: Option<PathBuf>,
     own: Option<OwnFiles>,
-    /// The document state that the copy holds.
-    pub(super) copied: Option<u64>,
+    /// The states of document and draft that the copy holds.
+    pub(super) copied: Option<(u64, u64)>,
     pub(super) last: Option<Instant>,
     /// Reported once, not every three seconds.
     pub(super) failed: bool,
@@ -48,10 +48,18 @@ impl Recovery {
     }
 
     /// Replaces this run's copy.
-    pub(super) fn write(&mut self, document: &[u8], about: &Recovered) -> std::io::Result<()> {
+    pub(super) fn write(
+        &mut self,
+        document: &[u8],
+        draft: Option<&str>,
+        about: &Recovered,
+    ) -> std::io::Result<()> {
         let Some(base) = self.own_base()? else { return Ok(()) };
         // the description last: without it the copy is not offered
         write_private(&base.with_extension("xml"), document)?;
+        if let Some(draft) = draft {
+            write_private(&base.with_extension("draft"), draft.as_bytes())?;
+        }
         write_private(&base.with_extension("json"), &serde_json::to_vec(about)?)
     }
 

@@ -9,6 +9,7 @@ use super::disk::{DiskStamp, has_changed};
 use super::disk_watch::DiskWatch;
 use super::open_document::OpenFile;
 use super::scene_changes::changes;
+use super::text_draft::TextDraft;
 use super::{Notice, Session};
 
 impl Session {
@@ -64,14 +65,18 @@ impl Session {
         let stamp = DiskStamp::of(&path).ok();
         let new = self.document().reopen(&path);
         let before = self.scene().zip(new.scene()).filter(|_| !new.has_errors());
-        let Some((before, after)) = before else { return self.open(path) };
+        let Some((before, after)) = before else {
+            let draft = self.doc.draft.take().map(TextDraft::into_text);
+            self.open(path);
+            return self.keep_draft(draft);
+        };
         let what = changes(before, after).join("; ");
         let touched = self.document().differences(&new);
         self.doc.saved = Some(new.clone());
         self.doc.history.push(new, "Reload".to_owned(), &touched, None);
         self.doc.history.mark_saved();
         self.doc.file = OpenFile::at(&path, stamp);
-        self.forget_recovery();
+        self.renew_recovery();
         self.document_changed(&touched);
         self.talk.notices.push(Notice::info(format!("Read {} again: {what}", self.doc.file.title)));
     }

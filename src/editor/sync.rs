@@ -13,6 +13,7 @@ impl Session {
     pub fn poll(&mut self, now: Instant) {
         self.run.look(now, &mut self.talk);
         self.follow_disk();
+        self.follow_verification();
         if self.run.has_settled(self.doc.history.state(), now) {
             self.sync();
         }

@@ -10,6 +10,8 @@ pub(super) struct Talk {
     pub requests: Vec<Request>,
     /// What to do after the save that a file dialog is open for.
     pub after_save: Option<Intent>,
+    /// Whether the session ends, with whatever is not saved.
+    pub ends: bool,
     /// Whether the text that the clipboard is asked for goes where it came from.
     pub paste_in_place: bool,
 }

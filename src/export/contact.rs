@@ -90,6 +90,17 @@ fn restitution_of(zeta: f64) -> f64 {
     libm::exp(-exponent)
 }
 
+/// Rolling friction of these engines is a lever, in m: the torque about the contact for each newton of load. A torque τ slows a
+/// solid sphere that rolls by 5/7 τ/(m r), and this program's coefficient by μ N/m, so that the lever is 7/5 μ r.
+pub fn rolling_lever(coefficient: f64, radius: f64) -> f64 {
+    1.4 * coefficient * radius
+}
+
+/// The inverse of the above.
+pub fn rolling_of_lever(lever: f64, radius: f64) -> f64 {
+    lever / (1.4 * radius)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

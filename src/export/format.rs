@@ -3,8 +3,9 @@
 use glam::DVec3;
 
 use super::error::ExportError;
-use super::motion::{Animation, When, simulated};
+use super::motion::{Animation, Frames, When, looked_up, simulated};
 use super::report::Report;
+use crate::record::RecordedMotion;
 use crate::scene::{Body, Document, ForceKind, Foreign, Scene};
 
 /// One way to write a scene for another program.
@@ -42,6 +43,22 @@ impl Format {
         }
         let (document, motion) = simulated(document, when, go_on)?;
         self.written(&document, motion.as_ref())
+    }
+
+    /// As [`Self::export`], with the motion between two times that a run of the document has recorded. `go_on` hears how much
+    /// is done, from 0 to 1, and ends it by `false`.
+    pub fn export_recorded(
+        &self,
+        document: &Document,
+        motion: &RecordedMotion,
+        frames: Frames,
+        go_on: &mut dyn FnMut(f64) -> bool,
+    ) -> Result<Exported, ExportError> {
+        if !self.moves {
+            return Err(ExportError::NoMotion(self.name));
+        }
+        let (document, motion) = looked_up(document, motion, frames, go_on)?;
+        self.written(&document, Some(&motion))
     }
 
     fn written(&self, document: &Document, motion: Option<&Animation>) -> Result<Exported, ExportError> {

@@ -32,6 +32,9 @@ const BLUNT_DRAG: &str = "0.25 0 0 0 0";
 /// Impedance: at 1 a contact would bear any load without giving way, which MuJoCo's solver cannot.
 const IMPEDANCE: &str = "0.99 0.99 0.001";
 
+/// Contacts that resist sliding, spinning and rolling.
+const WITH_ROLLING: &str = "6";
+
 /// KiB for contacts and the solver; a body of a heap has a handful of contacts.
 const BASE_MEMORY: usize = 16 * 1024;
 const BODY_MEMORY: usize = 128;
@@ -91,8 +94,12 @@ impl Writer<'_> {
         let gravity = vector(z_up(self.source.gravity()));
         let density = number(self.source.air_density());
         // RK4: exact along parabolas, and it keeps the energy of elastic contact.
-        let attributes =
-            [("timestep", &*step), ("gravity", &gravity), ("density", &density), ("integrator", "RK4")];
+        let mut attributes =
+            vec![("timestep", &*step), ("gravity", &gravity), ("density", &density), ("integrator", "RK4")];
+        if self.is_rough() {
+            // Coulomb's own: the usual pyramid slows a rolling ball too little.
+            attributes.push(("cone", "elliptic"));
+        }
         self.xml.empty("option", &attributes)
     }
 
@@ -132,7 +139,10 @@ impl Writer<'_> {
         let own = self.pairs.own(body);
         let mut attributes = vec![("name", name.to_owned()), ("solref", self.solref(own.bounce))];
         if self.is_rough() {
-            attributes.push(("friction", format!("{} 0 0", number(own.friction))));
+            attributes.push(("friction", format!("{} 0 {}", number(own.friction), number(own.lever()))));
+            if own.lever() > 0.0 {
+                attributes.push(("condim", WITH_ROLLING.into()));
+            }
         }
         match body.shape {
             Shape::Sphere { radius } => {
@@ -184,15 +194,19 @@ impl Writer<'_> {
         self.xml.open("contact", &[])?;
         let is_rough = self.is_rough();
         let mut last = (f64::NAN, String::new());
-        for &(one, other, Surface { bounce, friction }) in &self.pairs.written {
+        for &(one, other, surface) in &self.pairs.written {
+            let Surface { bounce, friction, .. } = surface;
             if last.0 != bounce {
                 last = (bounce, self.solref(bounce));
             }
             let (one, other) = (&*self.names[one], &*self.names[other]);
             let mut geoms = vec![("geom1", one), ("geom2", other), ("solref", &*last.1)];
-            let friction = format!("{0} {0} 0 0 0", number(friction));
+            let friction = format!("{0} {0} 0 {1} {1}", number(friction), number(surface.lever()));
             if is_rough {
                 geoms.push(("friction", &friction));
+            }
+            if is_rough && surface.lever() > 0.0 {
+                geoms.push(("condim", WITH_ROLLING));
             }
             self.xml.empty("pair", &geoms)?;
         }
@@ -229,9 +243,13 @@ impl Writer<'_> {
             Aspect::Bounce => approximated(self.how_bounce()),
             Aspect::Frictionless => kept("as condim 1"),
             Aspect::Friction => {
-                approximated("as condim 3 with a pyramid of friction, over steps instead of at once")
+                approximated("as condim 3 with an elliptic cone, over steps instead of at once")
             }
-            Aspect::RollingFriction => dropped("not written by this version"),
+            Aspect::RollingFriction if self.is_rough() => approximated(
+                "as condim 6 with a lever of 7/5 of coefficient and radius, the geometric mean for each pair; \
+                 of two balls the smaller radius",
+            ),
+            Aspect::RollingFriction => not_needed("nothing rolls where nothing rubs"),
             Aspect::Tangential => dropped("MuJoCo restores no slip"),
             Aspect::Spins => kept("in the keyframe `start`, in the axes of the body"),
             Aspect::UniformGravity => kept("as their sum, in `option`"),

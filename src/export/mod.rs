@@ -22,7 +22,7 @@ mod usd;
 mod xml;
 
 pub use aspect::Aspect;
-pub use contact::restitution_of_damping;
+pub use contact::{restitution_of_damping, rolling_lever, rolling_of_lever};
 pub use error::ExportError;
 pub use format::{Exported, Format};
 pub use motion::{Animation, Frames, Sample, When, with_state_of};

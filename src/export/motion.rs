@@ -1,11 +1,13 @@
-//! A scene at another time than its start, and its motion as samples: simulated here, event by event.
+//! A scene at another time than its start, and its motion as samples: looked up in what a run has recorded, or simulated here,
+//! event by event.
 
 use glam::{DQuat, DVec3};
 use rustc_hash::FxHashMap;
 
 use super::error::ExportError;
+use crate::record::RecordedMotion;
 use crate::scene::{Document, Edit, EditError, NodeKey};
-use crate::sim::{BodyRef, Event, Progress, Rotation, Simulation, as_start};
+use crate::sim::{BodyRef, BodyState, Event, Progress, Rotation, Simulation, as_start};
 
 /// Which part of a run is exported. Times in s.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,6 +54,21 @@ impl Frames {
             return Some("frames per second must be more than 0".into());
         }
         None
+    }
+
+    /// Whether so many bodies can be sampled so often.
+    fn check(&self, bodies: usize) -> Result<(), ExportError> {
+        if let Some(refusal) = self.refusal() {
+            return Err(ExportError::Frames(refusal));
+        }
+        let count = self.count();
+        if count * bodies as f64 > MOST_SAMPLES {
+            return Err(ExportError::Frames(format!(
+                "{count:.0} frames of {bodies} bodies are more than {MOST_SAMPLES:.0e} samples: take a shorter time or \
+                 fewer frames per second"
+            )));
+        }
+        Ok(())
     }
 
     fn count(&self) -> f64 {
@@ -157,12 +174,88 @@ fn take_shorter_turns(keys: &mut [Key]) {
 
 /// The document with the places and velocities of a simulation of it as its start.
 pub fn with_state_of(document: &Document, sim: &Simulation) -> Result<Document, EditError> {
-    let changes = sim.dynamic_bodies().filter_map(|body| {
-        let (key, state) = (sim.key(body), sim.state(body)?);
+    let states = sim.dynamic_bodies().filter_map(|body| Some((sim.key(body), sim.state(body)?)));
+    with_states(document, states)
+}
+
+fn with_states(
+    document: &Document,
+    states: impl Iterator<Item = (NodeKey, BodyState)>,
+) -> Result<Document, EditError> {
+    let changes = states.flat_map(|(key, state)| {
         let changes = as_start(state.position, state.velocity, state.turn);
-        Some(changes.map(move |change| Edit::Body { key, change }))
+        changes.map(move |change| Edit::Body { key, change })
     });
-    Ok(document.apply(&Edit::All(changes.flatten().collect()))?.document)
+    Ok(document.apply(&Edit::All(changes.collect()))?.document)
+}
+
+impl Sample {
+    fn of(state: &BodyState) -> Self {
+        Self { position: state.position, velocity: state.velocity, turn: state.turn }
+    }
+}
+
+impl Key {
+    fn of(time: f64, state: &BodyState) -> Self {
+        let orientation = state.turn.map(|turn| turn.orientation);
+        Self { time, position: state.position, orientation }
+    }
+}
+
+/// The document as a run of it was at the first frame, and how it moved from there.
+pub(super) fn looked_up(
+    document: &Document,
+    motion: &RecordedMotion,
+    frames: Frames,
+    go_on: &mut dyn FnMut(f64) -> bool,
+) -> Result<(Document, Animation), ExportError> {
+    frames.check(motion.bodies().len())?;
+    let (from, to) = motion.span();
+    if frames.from < from || frames.to > to {
+        return Err(ExportError::Frames(format!("the run is recorded from {from} s to {to} s only")));
+    }
+    let bodies: Vec<(BodyRef, NodeKey)> = motion.bodies().collect();
+    let start =
+        bodies.iter().enumerate().filter_map(|(nth, (_, key))| Some((*key, motion.state(nth, frames.from)?)));
+    let start = with_states(document, start)?;
+    let times = frames.times();
+    let mut tracks = FxHashMap::default();
+    for (nth, (_, key)) in bodies.iter().enumerate() {
+        if !go_on(nth as f64 / bodies.len() as f64) {
+            return Err(ExportError::Cancelled { time: frames.from });
+        }
+        let samples: Vec<Sample> =
+            times.iter().filter_map(|time| Some(Sample::of(&motion.state(nth, *time)?))).collect();
+        if samples.len() == times.len() {
+            tracks.insert(*key, Track { samples, corners: Vec::new() });
+        }
+    }
+    add_corners(motion, frames, &bodies, &mut tracks);
+    Ok((start, Animation { frames, times, tracks }))
+}
+
+/// Where the ways have corners: at the events between the first frame and the last.
+fn add_corners(
+    motion: &RecordedMotion,
+    frames: Frames,
+    bodies: &[(BodyRef, NodeKey)],
+    tracks: &mut FxHashMap<NodeKey, Track>,
+) {
+    let index: FxHashMap<BodyRef, usize> =
+        bodies.iter().enumerate().map(|(nth, (body, _))| (*body, nth)).collect();
+    let ledger = motion.ledger();
+    let rows = ledger.iter_from(ledger.count_until(frames.from));
+    let mut room = MOST_CORNERS;
+    for row in rows.take_while(|row| row.event.time <= frames.to) {
+        let event = &row.event;
+        for nth in [Some(event.a), event.b].into_iter().flatten().filter_map(|body| index.get(&body)) {
+            let track = bodies.get(*nth).and_then(|(_, key)| tracks.get_mut(key));
+            if let (Some(track), Some(state), 1..) = (track, motion.state_after(*nth, event.seq), room) {
+                room -= 1;
+                track.corners.push(Key::of(event.time, &state));
+            }
+        }
+    }
 }
 
 /// The document as it is at the time asked for, and its motion from there. `go_on` hears how much is done, from 0 to 1,
@@ -198,15 +291,7 @@ fn record(
     go_on: &mut dyn FnMut(&Simulation, u64) -> bool,
 ) -> Result<Animation, ExportError> {
     let bodies: Vec<BodyRef> = sim.dynamic_bodies().collect();
-    if frames.count() * bodies.len() as f64 > MOST_SAMPLES {
-        let text = format!(
-            "{:.0} frames of {} bodies are more than {MOST_SAMPLES:.0e} samples: take a shorter time or fewer frames \
-             per second",
-            frames.count(),
-            bodies.len()
-        );
-        return Err(ExportError::Frames(text));
-    }
+    frames.check(bodies.len())?;
     let times = frames.times();
     let index: FxHashMap<BodyRef, usize> = bodies.iter().enumerate().map(|(at, body)| (*body, at)).collect();
     let mut tracks = vec![Track::default(); bodies.len()];
@@ -217,15 +302,13 @@ fn record(
                 let place = index.get(&body).zip(sim.state(body));
                 if let (Some((at, state)), 1..) = (place, room) {
                     room -= 1;
-                    let orientation = state.turn.map(|turn| turn.orientation);
-                    tracks[*at].corners.push(Key { time: event.time, position: state.position, orientation });
+                    tracks[*at].corners.push(Key::of(event.time, &state));
                 }
             }
         })?;
         for (track, body) in tracks.iter_mut().zip(&bodies) {
             if let Some(state) = sim.state(*body) {
-                let (position, velocity, turn) = (state.position, state.velocity, state.turn);
-                track.samples.push(Sample { position, velocity, turn });
+                track.samples.push(Sample::of(&state));
             }
         }
     }

@@ -1,11 +1,12 @@
-//! Restitution is a product of two numbers here, friction their geometric mean, and MuJoCo mixes the two geoms of a contact otherwise: which geoms say
-//! what, and which pairs are written out.
+//! Restitution is a product of two numbers here, frictions are geometric means, and MuJoCo mixes the two geoms of a contact
+//! otherwise: which geoms say what, and which pairs are written out.
 //!
 //! MuJoCo takes the geom of higher priority, or the one with more damping and the larger friction. So a moving sphere
 //! says what it has with its like, a static body what it has with the commonest moving ones, at a higher priority, and
 //! what then differs is a pair.
 
-use crate::scene::{Body, Scene};
+use super::contact::rolling_lever;
+use crate::scene::{Body, Scene, Shape};
 
 /// More pairs than this would be most of the file; the rest is approximated.
 const MOST_PAIRS: usize = 100_000;
@@ -20,16 +21,36 @@ pub(super) struct Pairs {
     pub left_out: usize,
 }
 
-/// Restitution and friction, of a body or of two.
+/// Restitution and frictions, of a body or of two.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Surface {
     pub bounce: f64,
     pub friction: f64,
+    rolling: f64,
+    /// Of what rolls, where anything resists that, m; infinite for what stands still.
+    radius: f64,
 }
+
+const SMOOTH: Surface = Surface { bounce: 1.0, friction: 0.0, rolling: 0.0, radius: f64::INFINITY };
 
 impl Surface {
     fn of(body: &Body) -> Self {
-        Self { bounce: body.bounce, friction: body.roughness.friction }
+        let rolling = body.roughness.rolling;
+        let radius = match body.shape {
+            _ if rolling == 0.0 || !body.is_dynamic() => f64::INFINITY,
+            Shape::Sphere { radius } => radius,
+            Shape::Plane { .. } | Shape::Unbuilt { .. } => f64::INFINITY,
+        };
+        Self { bounce: body.bounce, friction: body.roughness.friction, rolling, radius }
+    }
+
+    /// Lever of the friction that resists rolling, m; of two balls that of the smaller.
+    pub fn lever(&self) -> f64 {
+        if self.rolling > 0.0 && self.radius.is_finite() {
+            rolling_lever(self.rolling, self.radius)
+        } else {
+            0.0
+        }
     }
 
     /// With another. Above 1 an impact would add energy, which damping cannot.
@@ -37,11 +58,16 @@ impl Surface {
         Self {
             bounce: (self.bounce * other.bounce).min(1.0),
             friction: libm::sqrt(self.friction * other.friction),
+            rolling: libm::sqrt(self.rolling * other.rolling),
+            radius: self.radius.min(other.radius),
         }
     }
 
     fn in_order(&self, other: &Self) -> std::cmp::Ordering {
-        self.bounce.total_cmp(&other.bounce).then(self.friction.total_cmp(&other.friction))
+        let numbers = |surface: &Self| [surface.bounce, surface.friction, surface.rolling, surface.radius];
+        let pairs = numbers(self).into_iter().zip(numbers(other));
+        let unequal = pairs.map(|(one, other)| one.total_cmp(&other)).find(|order| order.is_ne());
+        unequal.unwrap_or(std::cmp::Ordering::Equal)
     }
 }
 
@@ -56,7 +82,7 @@ impl Pairs {
         let moving = classes(scene, Body::is_dynamic);
         let fixed = classes(scene, |body| !body.is_dynamic());
         let most = moving.iter().max_by_key(|class| class.members.len());
-        let common = most.map_or(Surface { bounce: 1.0, friction: 0.0 }, |class| class.surface);
+        let common = most.map_or(SMOOTH, |class| class.surface);
         let mut pairs = Self { common, written: Vec::new(), left_out: 0 };
         let others = || moving.iter().filter(|class| class.surface != common);
         for (class, other) in fixed.iter().flat_map(|class| others().map(move |other| (class, other))) {

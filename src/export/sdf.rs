@@ -4,7 +4,7 @@ use std::io;
 
 use super::aspect::Aspect;
 use super::axes::{roll_pitch_yaw, z_up, z_up_rotation};
-use super::contact::Yielding;
+use super::contact::{Yielding, rolling_lever};
 use super::error::ExportError;
 use super::format::{Exported, Format, Source};
 use super::names;
@@ -166,8 +166,25 @@ impl Writer<'_> {
         self.xml.text("mu", &friction)?;
         self.xml.text("mu2", &friction)?;
         self.xml.close("ode")?;
+        self.rolling(body, &friction)?;
         self.xml.close("friction")?;
         self.xml.close("surface")
+    }
+
+    /// Of engines that SDF knows only Bullet resists rolling. What stands still is met by the smallest moving sphere.
+    fn rolling(&mut self, body: &Body, friction: &str) -> io::Result<()> {
+        if body.roughness.rolling == 0.0 {
+            return Ok(());
+        }
+        let radius = match (&body.shape, body.is_dynamic()) {
+            (Shape::Sphere { radius }, true) => *radius,
+            _ => self.contact.radius,
+        };
+        self.xml.open("bullet", &[])?;
+        self.xml.text("friction", friction)?;
+        self.xml.text("friction2", friction)?;
+        self.xml.text("rolling_friction", &number(rolling_lever(body.roughness.rolling, radius)))?;
+        self.xml.close("bullet")
     }
 
     /// Velocities at the start.
@@ -217,7 +234,10 @@ impl Writer<'_> {
             Aspect::Friction => approximated(
                 "each surface has its own as mu and mu2; ODE takes the smaller of two (here: geometric mean)",
             ),
-            Aspect::RollingFriction => dropped("not written by this version"),
+            Aspect::RollingFriction => approximated(
+                "as rolling_friction of Bullet, a lever of 7/5 of coefficient and radius (of what stands still: of the \
+                 smallest moving sphere); other engines have none",
+            ),
             Aspect::Tangential => dropped("SDF restores no slip"),
             Aspect::Spins => {
                 approximated("as a state of the world, which Gazebo Classic reads and gz sim does not")

@@ -26,7 +26,7 @@ use super::xml::XmlPane;
 use super::{menu, shortcuts, start, status, theme};
 use crate::design::TOOLS;
 use crate::editor::{
-    Action, Command, Notice, Outcome, Request, Session, SessionCommand, Storage, WindowCommand,
+    Action, Command, Notice, Outcome, Request, Session, SessionCommand, Storage, Verified, WindowCommand,
 };
 use crate::record::Runner;
 use crate::scene::shown_path;
@@ -143,7 +143,7 @@ impl App {
         self.views.redraws()
     }
 
-    /// What happened since the last turn: frames, keys, dropped files, a wish to close.
+    /// What happened since the last turn: frames, keys, dropped files.
     fn begin(&mut self, ctx: &Context) {
         // whatever was dragged or picked, it is over when no button is held
         if self.session.open_gesture().is_some() && !ctx.input(|input| input.pointer.any_down()) {
@@ -160,10 +160,10 @@ impl App {
         if !blocked {
             shortcuts::collect(ctx, &self.outbox, self.views.have_focus(ctx), self.was_typing);
         }
-        let (dropped, focused, closing) = ctx.input(|input| {
+        let (dropped, focused) = ctx.input(|input| {
             let dropped = input.raw.dropped_files.first().map(|file| file.path().to_owned());
             let focused = input.events.contains(&egui::Event::WindowFocused(true));
-            (dropped, focused, input.viewport().close_requested())
+            (dropped, focused)
         });
         if let Some(path) = dropped {
             self.outbox.act(Action::OpenPath(path));
@@ -171,12 +171,18 @@ impl App {
         if focused {
             self.outbox.act(Action::LookAtDisk);
         }
-        // a window for a script keeps nothing, so there is nothing to ask about
-        if closing && self.session.is_dirty() && !self.forgetful {
+        self.set_title(ctx);
+    }
+
+    /// Asks before a wish to close loses something, also what was typed in this very turn. A window for a script keeps
+    /// nothing, so there is nothing to ask about.
+    fn guard_closing(&mut self, ctx: &Context) {
+        let closing = ctx.input(|input| input.viewport().close_requested());
+        if closing && self.session.has_unsaved_work() && !self.forgetful {
             ctx.send_viewport_cmd(ViewportCommand::CancelClose);
             self.outbox.command(SessionCommand::Quit);
+            ctx.request_repaint();
         }
-        self.set_title(ctx);
     }
 
     /// Notices that the document is another one.
@@ -219,6 +225,7 @@ impl App {
             outbox: &self.outbox,
         };
         self.problems.refresh(&context);
+        self.ledger.finish_writing(&ctx, &context);
         let bar = |margin| egui::Frame::side_top_panel(ui.style()).inner_margin(margin);
         let (menu_bar, tool_bar) = (bar(egui::Margin::symmetric(6, 2)), bar(egui::Margin::symmetric(6, 3)));
         let flush = bar(egui::Margin::ZERO);
@@ -271,9 +278,8 @@ impl App {
             match request {
                 Request::SetClipboard(text) => ctx.copy_text(text),
                 Request::ReadClipboard => ctx.send_viewport_cmd(ViewportCommand::RequestPaste),
-                Request::Quit => {
-                    ctx.send_viewport_cmd(ViewportCommand::Close);
-                }
+                Request::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
+                Request::ShowText => self.dock.show_tall(Panel::Xml, TALL),
                 file => self.dialogs.ask_for_file(ctx, &file),
             }
         }
@@ -396,10 +402,12 @@ impl App {
         run(&mut self.views, &context)
     }
 
-    /// An idle window stays idle: the only clocks are an edit that settles and the recovery copy.
+    /// An idle window stays idle: the only clocks are an edit that settles, a comparison and the recovery copy.
     fn schedule(&self, ctx: &Context) {
         if self.session.open_gesture().is_some() {
             ctx.request_repaint_after(Duration::from_millis(160));
+        } else if matches!(self.session.verified(), Some(Verified::Part(_))) {
+            ctx.request_repaint_after(Duration::from_millis(100));
         } else if self.session.wants_recovery_copy() {
             ctx.request_repaint_after(crate::editor::RECOVERY_INTERVAL);
         }
@@ -423,6 +431,7 @@ impl eframe::App for App {
         self.begin(&ctx);
         self.show(ui);
         self.carry_out(&ctx);
+        self.guard_closing(&ctx);
         self.schedule(&ctx);
         self.pace.frame_s = started.elapsed().as_secs_f64();
         self.was_typing = ctx.text_edit_focused();

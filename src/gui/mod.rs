@@ -3,6 +3,7 @@
 
 mod accuracy;
 mod app;
+mod background;
 mod badge;
 mod colors;
 mod context;

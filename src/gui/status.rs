@@ -6,6 +6,7 @@ use super::colors::{color32, tones};
 use super::context::AppContext;
 use super::widgets::mono;
 use super::{badge, numbers};
+use crate::editor::{Action, Verified};
 use crate::record::Frame;
 use crate::sim::Method;
 
@@ -35,6 +36,7 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>, pace: &Pace) {
         let behind = if frame.stepped.is_some() { STEPPED } else { 0.0 };
         badge::show(ui, context, behind);
         stepped(ui, context);
+        verified(ui, context);
         let step = numbers::duration(frame.step_wall_s);
         item(ui, "step", &step, 58.0, 0.0, "Computing time of the last Δt");
         let drawing = numbers::duration(pace.frame_s);
@@ -56,6 +58,30 @@ fn stepped(ui: &mut Ui, context: &AppContext<'_>) {
     );
     let color = color32(context.palette().stepped);
     ui.label(RichText::new(text).small().color(color)).on_hover_text(help);
+}
+
+/// Whether the run of a recording that was opened is the recorded one.
+fn verified(ui: &mut Ui, context: &AppContext<'_>) {
+    let Some(verified) = context.session.verified() else { return };
+    let tones = tones(ui);
+    let (text, color, help) = match verified {
+        Verified::Part(part) => {
+            let text = format!("comparing {:.0} %", 100.0 * part);
+            (
+                text,
+                tones.weak,
+                "The recording is run again a second time and compared with what it holds".into(),
+            )
+        }
+        Verified::Same(help) => ("as recorded".to_owned(), tones.good, help),
+        Verified::Differs(help) => ("not as recorded".to_owned(), tones.error, help),
+        Verified::Unknown(help) => ("not compared".to_owned(), tones.warning, help),
+    };
+    let is_going_on = text.starts_with("comparing");
+    ui.label(RichText::new(text).small().color(color)).on_hover_text(help);
+    if is_going_on && ui.small_button("Stop").on_hover_text("Gives the comparison up").clicked() {
+        context.outbox.act(Action::StopVerification);
+    }
 }
 
 /// What all words about stepped bodies take, points.

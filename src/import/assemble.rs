@@ -188,7 +188,7 @@ fn body(piece: &Piece, pose: Pose, shape: Shape) -> Body {
         hidden: piece.hidden,
         rotation: angles(pose.turn),
         bounce: piece.bounce,
-        roughness: Roughness { friction: piece.friction, ..Roughness::default() },
+        roughness: Roughness { friction: piece.friction, rolling: piece.rolling, ..Roughness::default() },
         spin: y_up(piece.spin),
         ..Body::new(piece.id.unwrap_or(0), y_up(pose.place), motion, shape)
     }

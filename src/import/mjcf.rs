@@ -7,9 +7,9 @@ use std::f64::consts::PI;
 use glam::{DMat3, DQuat, DVec3};
 
 use super::log::Log;
-use super::mjcf_contact::{Contact, USUAL_FRICTION, USUAL_SOLREF, give_surfaces, restitution, sliding};
+use super::mjcf_contact::{Contact, Surface, USUAL_FRICTION, USUAL_SOLREF, give_surfaces, restitution};
 use super::mjcf_defaults::Defaults;
-use super::piece::{Piece, PieceShape, Pose, World};
+use super::piece::{Piece, PieceShape, Pose, World, euler};
 use super::values::{array, checked, color, numbers, positive};
 use crate::export::Verdict;
 use crate::scene::XmlElement;
@@ -185,6 +185,7 @@ impl<'a> Reader<'a, '_> {
             spin: DVec3::ZERO,
             bounce: 1.0,
             friction: 0.0,
+            rolling: 0.0,
             color: attribute("rgba").and_then(color_of).or(material),
             // The viewer shows the groups 0 to 2 at first.
             hidden: group.is_some_and(|group| group > 2),
@@ -244,20 +245,45 @@ impl<'a> Reader<'a, '_> {
         if friction.is_none() {
             self.log.note(Verdict::Kept, "contact without friction", "", el.position());
         } else {
-            let how = "as Friction; a pair here has the geometric mean of both, and nothing resists spin or rolling";
+            let how = "as Friction; a pair here has the geometric mean of both";
             self.log.note(Verdict::Approximated, "friction of a geom", how, el.position());
         }
-        Contact { solref: solref.unwrap_or(USUAL_SOLREF), friction, priority, solmix }
+        let lever = self.lever(el, class, 2);
+        if lever > 0.0 {
+            let how =
+                "as RollingFriction, 5/7 of it over the radius; a pair here has the geometric mean of both";
+            self.log.note(Verdict::Approximated, "rolling friction of a geom", how, el.position());
+        }
+        let about_normal = self.dimensions(el, class) > 3 && self.coefficient(el, class, 1) > 0.0;
+        if about_normal && attribute("friction").is_some() {
+            let what = "torsional friction of a geom";
+            self.log.dropped(el, what, "what only spins on its place is not slowed here");
+        }
+        Contact { solref: solref.unwrap_or(USUAL_SOLREF), friction, lever, priority, solmix }
+    }
+
+    /// Directions in which a contact has force: 1 for the normal, 3 with sliding, 4 with spin about the normal, 6 with rolling.
+    fn dimensions(&self, el: XmlElement<'a>, class: Option<&str>) -> u32 {
+        let said = self.defaults.attribute(el, class, "condim");
+        said.and_then(|text| text.trim().parse().ok()).unwrap_or(3)
+    }
+
+    /// One of the numbers of `friction`.
+    fn coefficient(&self, el: XmlElement<'a>, class: Option<&str>, at: usize) -> f64 {
+        let said = self.defaults.attribute(el, class, "friction").and_then(|text| numbers(&text));
+        let usual = if at == 0 { USUAL_FRICTION } else { 0.0 };
+        said.and_then(|said| said.get(at).copied()).unwrap_or(usual).max(0.0)
+    }
+
+    /// Of rolling friction, m: the third number of a geom, the fourth of a pair. The tenth of a millimetre that MuJoCo has unless
+    /// told is none here.
+    fn lever(&self, el: XmlElement<'a>, class: Option<&str>, at: usize) -> f64 {
+        if self.dimensions(el, class) < 6 { 0.0 } else { self.coefficient(el, class, at) }
     }
 
     /// The first of its coefficients, which is for sliding; `None` with condim 1.
     fn friction(&self, el: XmlElement<'a>, class: Option<&str>) -> Option<f64> {
-        let attribute = |name: &str| self.defaults.attribute(el, class, name);
-        if attribute("condim").as_deref().map(str::trim) == Some("1") {
-            return None;
-        }
-        let said = attribute("friction").and_then(|text| numbers(&text)?.first().copied());
-        Some(said.unwrap_or(USUAL_FRICTION).max(0.0))
+        (self.dimensions(el, class) > 1).then(|| self.coefficient(el, class, 0))
     }
 
     /// Of a moving sphere, kg.
@@ -349,16 +375,14 @@ impl<'a> Reader<'a, '_> {
             }
             let surface = |name| {
                 let at = self.geoms.get(&*el.attribute(name)?)?;
-                self.pieces.get(*at).map(|piece| (piece.bounce, piece.friction))
+                self.pieces.get(*at).map(Surface::of)
             };
             let solref = self.defaults.attribute(el, None, "solref").and_then(|text| array::<2>(&text));
             let said = restitution(solref.unwrap_or(USUAL_SOLREF));
             let rubs = self.friction(el, None).unwrap_or(0.0);
+            let lever = self.lever(el, None, 3);
             match surface("geom1").zip(surface("geom2")) {
-                Some((one, other))
-                    if (one.0 * other.0 - said).abs() <= 1e-6
-                        && (sliding(one.1, other.1) - rubs).abs() <= 1e-6 * rubs.max(1.0) =>
-                {
+                Some((one, other)) if one.meets(&other, said, rubs, lever) => {
                     let how = "as the product of both Bounce values, and the mean of the frictions";
                     self.log.note(Verdict::Kept, "contact of a pair", how, el.position());
                 }
@@ -467,18 +491,4 @@ fn id(text: &str) -> Option<i64> {
 
 fn nth_of<const N: usize>(values: &Option<Vec<f64>>, nth: usize) -> Option<[f64; N]> {
     values.as_ref()?.get(nth * N..(nth + 1) * N)?.try_into().ok()
-}
-
-/// Turns about axes that turn along (small letters) or stay (capitals), in order.
-fn euler(order: &str, angles: [f64; 3]) -> DMat3 {
-    let mut turn = DMat3::IDENTITY;
-    for (axis, angle) in order.chars().zip(angles) {
-        let step = match axis.to_ascii_lowercase() {
-            'x' => DMat3::from_rotation_x(angle),
-            'y' => DMat3::from_rotation_y(angle),
-            _ => DMat3::from_rotation_z(angle),
-        };
-        turn = if axis.is_ascii_lowercase() { turn * step } else { step * turn };
-    }
-    turn
 }

@@ -2,7 +2,7 @@
 //! whose products and means they are.
 
 use super::piece::Piece;
-use crate::export::restitution_of_damping;
+use crate::export::{restitution_of_damping, rolling_of_lever};
 
 /// What a geom says about contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -10,6 +10,8 @@ pub(super) struct Contact {
     pub solref: [f64; 2],
     /// Coefficient of sliding; `None` where it gives none to a contact.
     pub friction: Option<f64>,
+    /// Of rolling friction, m.
+    pub lever: f64,
     pub priority: i64,
     pub solmix: f64,
 }
@@ -31,14 +33,41 @@ pub(super) fn restitution(solref: [f64; 2]) -> f64 {
     if e.is_finite() { (e * DIGITS).round() / DIGITS } else { 0.0 }
 }
 
+/// What a body here says about contact.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Surface {
+    bounce: f64,
+    friction: f64,
+    rolling: f64,
+    /// Of what may roll, m.
+    radius: Option<f64>,
+}
+
+impl Surface {
+    pub fn of(piece: &Piece) -> Self {
+        let Piece { bounce, friction, rolling, .. } = *piece;
+        Self { bounce, friction, rolling, radius: piece.rolling_radius() }
+    }
+
+    /// Whether this body and another have this restitution, this coefficient of sliding and this lever of rolling friction.
+    pub fn meets(&self, other: &Self, restitution: f64, friction: f64, lever: f64) -> bool {
+        let radius = [self.radius, other.radius].into_iter().flatten().fold(f64::INFINITY, f64::min);
+        let rolling = if radius.is_finite() { rolling_of_lever(lever, radius) } else { 0.0 };
+        let is_near = |found: f64, said: f64| (found - said).abs() <= 1e-6 * said.max(1.0);
+        is_near(self.bounce * other.bounce, restitution)
+            && is_near(mean(self.friction, other.friction), friction)
+            && is_near(mean(self.rolling, other.rolling), rolling)
+    }
+}
+
 /// What two bodies have here.
-pub(super) fn sliding(one: f64, other: f64) -> f64 {
+fn mean(one: f64, other: f64) -> f64 {
     libm::sqrt(one * other)
 }
 
-/// Of two geoms: that of higher priority decides, else springs are averaged and the larger friction counts.
-fn mixed(one: &Contact, other: &Contact) -> ([f64; 2], f64) {
-    let own = |contact: &Contact| (contact.solref, contact.friction.unwrap_or(0.0));
+/// Of two geoms: that of higher priority decides, else springs are averaged and the larger frictions count.
+fn mixed(one: &Contact, other: &Contact) -> ([f64; 2], f64, f64) {
+    let own = |contact: &Contact| (contact.solref, contact.friction.unwrap_or(0.0), contact.lever);
     if one.priority != other.priority {
         return own(if one.priority > other.priority { one } else { other });
     }
@@ -50,48 +79,79 @@ fn mixed(one: &Contact, other: &Contact) -> ([f64; 2], f64) {
     } else {
         pairs.map(|(a, b)| a.min(b))
     };
-    (solref, own(one).1.max(own(other).1))
+    (solref, own(one).1.max(own(other).1), one.lever.max(other.lever))
 }
 
-/// Gives each piece its Bounce and Friction: a moving one what two like it have, one that stands still what is left of its
+/// Bodies that move and are alike.
+struct Alike {
+    surface: Surface,
+    contact: Contact,
+    count: usize,
+}
+
+impl Alike {
+    fn is_of(&self, surface: &Surface) -> bool {
+        let numbers = |surface: &Surface| (surface.bounce, surface.friction, surface.rolling);
+        let same_size = surface.rolling == 0.0 || self.surface.radius == surface.radius;
+        numbers(&self.surface) == numbers(surface) && same_size
+    }
+
+    /// The more common one; of equally common ones that of larger numbers, as the export has it.
+    fn in_order(&self, other: &Self) -> std::cmp::Ordering {
+        let numbers = |alike: &Self| {
+            let Surface { bounce, friction, rolling, radius } = alike.surface;
+            [bounce, friction, rolling, radius.filter(|_| rolling > 0.0).unwrap_or(f64::INFINITY)]
+        };
+        let pairs = numbers(self).into_iter().zip(numbers(other));
+        let unequal = pairs.map(|(one, other)| one.total_cmp(&other)).find(|order| order.is_ne());
+        self.count.cmp(&other.count).then(unequal.unwrap_or(std::cmp::Ordering::Equal))
+    }
+}
+
+/// Gives each piece its Bounce and frictions: a moving one what two like it have, one that stands still what is left of its
 /// contact with the commonest moving ones.
 pub(super) fn give_surfaces(pieces: &mut [Piece], contacts: &[Contact]) {
-    let mut counts: Vec<(f64, Contact, usize)> = Vec::new();
+    let mut kinds: Vec<Alike> = Vec::new();
     for (piece, contact) in pieces.iter_mut().zip(contacts).filter(|(piece, _)| piece.motion.is_some()) {
         alone(piece, contact);
-        let same = |known: &&mut (f64, Contact, usize)| {
-            known.0 == piece.bounce && known.1.friction == contact.friction
-        };
-        match counts.iter_mut().find(same) {
-            Some((.., count)) => *count += 1,
-            None => counts.push((piece.bounce, *contact, 1)),
+        let surface = Surface::of(piece);
+        match kinds.iter_mut().find(|known| known.is_of(&surface)) {
+            Some(known) => known.count += 1,
+            None => kinds.push(Alike { surface, contact: *contact, count: 1 }),
         }
     }
-    // Of those that are equally common the one whose numbers are larger, as the export has it.
-    let common = counts.iter().max_by(|one, other| {
-        let friction = |contact: &Contact| contact.friction.unwrap_or(0.0);
-        let larger = one.0.total_cmp(&other.0).then(friction(&one.1).total_cmp(&friction(&other.1)));
-        one.2.cmp(&other.2).then(larger)
-    });
+    let common = kinds.iter().max_by(|one, other| one.in_order(other));
     for (piece, contact) in pieces.iter_mut().zip(contacts).filter(|(piece, _)| piece.motion.is_none()) {
         alone(piece, contact);
-        let Some((bounce, moving, _)) = common else { continue };
-        let (solref, friction) = mixed(contact, moving);
-        if *bounce > 0.0 {
-            piece.bounce = rounded(restitution(solref) / bounce);
-        }
-        if let Some(of_moving) = moving.friction.filter(|friction| *friction > 0.0) {
-            // √(μ μ₂) is to be what the contact has.
-            let left = rounded(friction / of_moving * friction);
-            piece.friction = if left.is_finite() { left } else { friction };
+        if let Some(common) = common {
+            beside(piece, contact, common);
         }
     }
+}
+
+/// What is left for a piece of its contact with others, whose Bounce is a factor and whose frictions are in a mean.
+fn beside(piece: &mut Piece, contact: &Contact, common: &Alike) {
+    let (solref, friction, lever) = mixed(contact, &common.contact);
+    let Surface { bounce, rolling, radius, .. } = common.surface;
+    if bounce > 0.0 {
+        piece.bounce = rounded(restitution(solref) / bounce);
+    }
+    // √(μ μ₂) is to be what the contact has.
+    let left = |both: f64, other: f64| rounded(both / other * both);
+    if let Some(of_moving) = common.contact.friction.filter(|friction| *friction > 0.0) {
+        let left = left(friction, of_moving);
+        piece.friction = if left.is_finite() { left } else { friction };
+    }
+    let left = left(radius.map_or(0.0, |radius| rolling_of_lever(lever, radius)), rolling);
+    piece.rolling = if left.is_finite() { left } else { 0.0 };
 }
 
 /// What two like it have.
 fn alone(piece: &mut Piece, contact: &Contact) {
     piece.bounce = rounded(libm::sqrt(restitution(contact.solref)));
     piece.friction = contact.friction.unwrap_or(0.0);
+    piece.rolling =
+        piece.rolling_radius().map_or(0.0, |radius| rounded(rolling_of_lever(contact.lever, radius)));
 }
 
 fn rounded(value: f64) -> f64 {

@@ -34,6 +34,8 @@ pub(super) struct Piece {
     pub bounce: f64,
     /// Coefficient μ of Coulomb's friction.
     pub friction: f64,
+    /// Share of the load that slows a rolling ball.
+    pub rolling: f64,
     pub color: Option<[u8; 3]>,
     pub hidden: bool,
 }
@@ -55,6 +57,16 @@ pub(super) struct Pose {
     pub turn: DMat3,
 }
 
+impl Piece {
+    /// Of a sphere that moves, m.
+    pub fn rolling_radius(&self) -> Option<f64> {
+        match self.shape {
+            PieceShape::Sphere(radius) if self.motion.is_some() => Some(radius),
+            PieceShape::Sphere(_) | PieceShape::Plane(_) | PieceShape::Box(_) => None,
+        }
+    }
+}
+
 impl Pose {
     pub const IDENTITY: Self = Self { place: DVec3::ZERO, turn: DMat3::IDENTITY };
 
@@ -62,4 +74,18 @@ impl Pose {
     pub fn then(self, inner: Self) -> Self {
         Self { place: self.place + self.turn * inner.place, turn: self.turn * inner.turn }
     }
+}
+
+/// Turns about axes that turn along (small letters) or stay (capitals), in order.
+pub(super) fn euler(order: &str, angles: [f64; 3]) -> DMat3 {
+    let mut turn = DMat3::IDENTITY;
+    for (axis, angle) in order.chars().zip(angles) {
+        let step = match axis.to_ascii_lowercase() {
+            'x' => DMat3::from_rotation_x(angle),
+            'y' => DMat3::from_rotation_y(angle),
+            _ => DMat3::from_rotation_z(angle),
+        };
+        turn = if axis.is_ascii_lowercase() { turn * step } else { step * turn };
+    }
+    turn
 }

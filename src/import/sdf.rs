@@ -7,7 +7,7 @@ use glam::{DMat3, DQuat, DVec3};
 use super::log::Log;
 use super::piece::{Piece, PieceShape, Pose, World};
 use super::values::{array, checked, color, is_true, numbers, positive};
-use crate::export::Verdict;
+use crate::export::{Verdict, rolling_of_lever};
 use crate::scene::XmlElement;
 
 /// As SDF has it, m/s².
@@ -34,7 +34,18 @@ pub(super) fn read(root: XmlElement<'_>, log: &mut Log) -> World {
         let how = "none is written: 9.8 m/s² downwards, as a world has it";
         reader.log.note(Verdict::Approximated, "gravity", how, None);
     }
+    rolling_of_levers(&mut reader.world.pieces);
     reader.world
+}
+
+/// What stands still is met by the smallest moving sphere.
+fn rolling_of_levers(pieces: &mut [Piece]) {
+    let smallest = pieces.iter().filter_map(Piece::rolling_radius).fold(f64::INFINITY, f64::min);
+    for piece in pieces {
+        let radius = piece.rolling_radius().unwrap_or(smallest);
+        let coefficient = rolling_of_lever(piece.rolling, radius);
+        piece.rolling = if coefficient.is_finite() { coefficient } else { 0.0 };
+    }
 }
 
 struct Reader<'l> {
@@ -160,6 +171,7 @@ impl Reader<'_> {
             let mut piece = new_piece(model.attribute("name").map(Into::into), at.then(pose), shape);
             piece.bounce = self.bounce(collision);
             piece.friction = self.friction(collision);
+            piece.rolling = self.lever(collision);
             piece.hidden = visual.is_none();
             piece.color = visual.and_then(color_of);
             if !fixed {
@@ -258,6 +270,20 @@ impl Reader<'_> {
         first
     }
 
+    /// Of the friction that resists rolling, m: Bullet's, the only one that SDF knows.
+    fn lever(&mut self, collision: XmlElement<'_>) -> f64 {
+        let friction = collision.child("surface").and_then(|surface| surface.child("friction"));
+        let bullet = friction.and_then(|friction| friction.child("bullet"));
+        let said = bullet.and_then(|bullet| array::<1>(&bullet.child("rolling_friction")?.text()));
+        let lever = said.map_or(0.0, |[value]| value.max(0.0));
+        if lever > 0.0 {
+            let how =
+                "as RollingFriction, 5/7 of it over the radius; a pair here has the geometric mean of both";
+            self.log.note(Verdict::Approximated, "rolling friction of a surface", how, collision.position());
+        }
+        lever
+    }
+
     fn mass(&mut self, link: XmlElement<'_>) -> f64 {
         let Some(inertial) = link.child("inertial") else { return 1.0 };
         if self.pose(inertial).place.length() > 1e-12 {
@@ -326,8 +352,8 @@ impl Reader<'_> {
 
 fn new_piece(name: Option<String>, pose: Pose, shape: PieceShape) -> Piece {
     let (id, motion, color, hidden) = (None, None, None, false);
-    let (spin, bounce, friction) = (DVec3::ZERO, 0.0, USUAL_FRICTION);
-    Piece { name, id, pose, shape, motion, spin, bounce, friction, color, hidden }
+    let (spin, bounce, friction, rolling) = (DVec3::ZERO, 0.0, USUAL_FRICTION, 0.0);
+    Piece { name, id, pose, shape, motion, spin, bounce, friction, rolling, color, hidden }
 }
 
 fn color_of(visual: XmlElement<'_>) -> Option<[u8; 3]> {

@@ -72,6 +72,8 @@ pub enum RunCommand {
     BringBack,
     /// Writes the recording to a file; the next frame has what came of it.
     Write(Box<WriteRequest>),
+    /// Whether frames from now on have the motion that is recorded now.
+    ShareMotion(bool),
     /// Bytes that the recording may take.
     Budget(usize),
     /// How much of the bodies' ways frames have; none by default.

@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::file::Written;
 use super::ledger::{EventRow, Ledger};
+use super::motion::RecordedMotion;
 use super::ways::{BodyPath, ImpactBody};
 use crate::scene::{Diagnostic, NodeKey};
 use crate::sim::{ContactState, Counters, Energy, Method, Momentum, Plan, Rotation, SteppedBodies, Tiling};
@@ -125,6 +126,8 @@ pub struct Frame {
     pub command: u64,
     /// The recording that was written last; another one for each.
     pub written: Option<Arc<Written>>,
+    /// The motion that was recorded when it was asked for.
+    pub motion: Option<Arc<RecordedMotion>>,
     /// Whether the simulation stands at what is shown. Before, what was looked up is there: bodies and events; energy,
     /// momentum and contacts follow.
     pub is_settled: bool,

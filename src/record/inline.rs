@@ -43,21 +43,40 @@ impl InlineRunner {
         self.exceeded
     }
 
-    fn settle(&mut self) {
-        match self.watch {
-            // One event, or a bounded amount of work, between two looks.
-            Some(watch) => {
-                while self.recorder.work(1) {
-                    let events = self.recorder.run.as_ref().map_or(0, |run| run.at.event);
-                    self.exceeded = watch.exceeded(events);
-                    if self.exceeded.is_some() {
-                        self.recorder.command(RunCommand::Pause);
-                        break;
-                    }
-                }
+    /// As [`Runner::send`], but gives the command up when `go_on`, which hears the time reached, says so; whether it was
+    /// carried out.
+    pub fn send_while(&mut self, command: RunCommand, go_on: &mut dyn FnMut(f64) -> bool) -> bool {
+        self.recorder.command(command);
+        self.command += 1;
+        let is_done = self.work_while(go_on);
+        self.publish();
+        is_done
+    }
+
+    /// Looks at the limits after one event, or a bounded amount of work.
+    fn work_while(&mut self, go_on: &mut dyn FnMut(f64) -> bool) -> bool {
+        while self.recorder.work(1) {
+            let (events, time) =
+                self.recorder.run.as_ref().map_or((0, 0.0), |run| (run.at.event, run.at.time));
+            self.exceeded = self.watch.and_then(|watch| watch.exceeded(events));
+            if self.exceeded.is_some() || !go_on(time) {
+                self.recorder.command(RunCommand::Pause);
+                return false;
             }
-            None => while self.recorder.work(u32::MAX) {},
         }
+        true
+    }
+
+    fn settle(&mut self) {
+        if self.watch.is_some() {
+            self.work_while(&mut |_| true);
+        } else {
+            while self.recorder.work(u32::MAX) {}
+        }
+        self.publish();
+    }
+
+    fn publish(&mut self) {
         self.frame =
             Arc::new(frame_of(&mut self.recorder, self.frame.revision + 1, self.command, Pace::default()));
     }

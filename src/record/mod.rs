@@ -11,6 +11,7 @@ mod lag;
 mod ledger;
 mod limits;
 mod moment;
+mod motion;
 mod moving;
 mod paths;
 mod publish;
@@ -25,6 +26,7 @@ mod task;
 mod thread;
 mod ticks;
 mod track;
+mod verify;
 mod ways;
 
 use std::sync::Arc;
@@ -38,8 +40,10 @@ pub use inline::InlineRunner;
 pub use ledger::{EventRow, Ledger};
 pub use limits::{Exceeded, Limits, Watch, advance};
 pub use moment::Moment;
+pub use motion::RecordedMotion;
 pub use rows::{Column, EVENT_COLUMNS, EventLine, cells};
 pub use thread::ThreadRunner;
+pub use verify::{Compared, Rerun, RerunError};
 pub use ways::{BodyPath, ImpactBody, PathSpan};
 
 /// Something that runs a simulation on command. The application uses a thread, so that no scene can

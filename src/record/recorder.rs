@@ -7,6 +7,7 @@ use std::sync::Arc;
 use super::command::{Goal, RunCommand};
 use super::file::{Written, write};
 use super::frame::RunState;
+use super::motion::RecordedMotion;
 use super::recording::BUDGET;
 use super::run::Run;
 use super::task::{Play, Task};
@@ -32,6 +33,8 @@ pub(super) struct RunRecorder {
     pub(super) paths: Option<PathSpan>,
     /// The file that was written last.
     pub(super) written: Option<Arc<Written>>,
+    /// The motion that was asked for.
+    pub(super) motion: Option<Arc<RecordedMotion>>,
 }
 
 impl Default for RunRecorder {
@@ -46,6 +49,7 @@ impl Default for RunRecorder {
             budget: BUDGET,
             paths: None,
             written: None,
+            motion: None,
         }
     }
 }
@@ -67,6 +71,10 @@ impl RunRecorder {
             RunCommand::Method(_) => {}
             RunCommand::Budget(bytes) => self.set_budget(bytes),
             RunCommand::Paths(span) => self.paths = span,
+            RunCommand::ShareMotion(wanted) => {
+                let run = self.run.as_ref().filter(|_| wanted);
+                self.motion = run.map(|run| Arc::new(RecordedMotion::of(&run.recording, &run.simulation)));
+            }
             RunCommand::Pause => self.stop(),
             // After commands that wait it is meant for where they lead to.
             RunCommand::Edit(edits) if self.waiting.is_empty() => self.edits.extend(edits),
@@ -219,6 +227,7 @@ impl RunRecorder {
 
     fn load(&mut self, scene: Arc<Scene>) {
         self.stop();
+        self.motion = None;
         match Simulation::with_method(&scene, self.method) {
             Ok(simulation) => {
                 self.problems = Arc::new(simulation.start_warnings().to_vec());

@@ -158,7 +158,7 @@ impl Recording {
         time < self.end.time || (time == self.end.time && self.end.is_over)
     }
 
-    fn track(&self, body: BodyRef) -> Option<&Track> {
+    pub(super) fn track(&self, body: BodyRef) -> Option<&Track> {
         match body {
             BodyRef::Dynamic(body) => self.tracks.get(body as usize),
             BodyRef::Static(_) => None,

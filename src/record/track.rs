@@ -1,6 +1,7 @@
 //! How one body moved: its pieces of motion in order.
 
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 use super::moment::Moment;
 use crate::sim::Piece;
@@ -21,10 +22,10 @@ impl Noted {
 /// Pieces of one block, which are dropped together.
 const BLOCK: usize = 64;
 
-/// Pieces in the order begun, so that both their events and their starts only grow.
+/// Pieces in the order begun, so that both their events and their starts only grow. Copies share their blocks.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Track {
-    blocks: VecDeque<Vec<Noted>>,
+    blocks: VecDeque<Arc<Vec<Noted>>>,
     /// How many there were, those dropped included.
     count: u64,
 }
@@ -37,12 +38,12 @@ impl Track {
     pub(super) fn push(&mut self, noted: Noted) {
         self.count += 1;
         match self.blocks.back_mut() {
-            Some(block) if block.len() < BLOCK => block.push(noted),
+            Some(block) if block.len() < BLOCK => Arc::make_mut(block).push(noted),
             // Most bodies of large scenes have few pieces; one with many will have more.
             _ => {
                 let mut block = Vec::with_capacity(if self.blocks.is_empty() { 1 } else { BLOCK });
                 block.push(noted);
-                self.blocks.push_back(block);
+                self.blocks.push_back(Arc::new(block));
             }
         }
     }
@@ -66,7 +67,7 @@ impl Track {
 
     /// The block that a moment lies in, and how many of its pieces are not after it: none only before the first of all.
     fn place_after(&self, moment: Moment) -> (usize, usize) {
-        let begun = |block: &Vec<Noted>| block.first().is_some_and(|first| first.is_not_after(moment));
+        let begun = |block: &Arc<Vec<Noted>>| block.first().is_some_and(|first| first.is_not_after(moment));
         let after = self.blocks.partition_point(begun);
         let Some(block) = after.checked_sub(1) else { return (0, 0) };
         let inside =
@@ -78,9 +79,9 @@ impl Track {
     pub(super) fn split_off(&mut self, moment: Moment) -> Vec<Noted> {
         let (block, inside) = self.place_after(moment);
         let Some(pieces) = self.blocks.get_mut(block) else { return Vec::new() };
-        let mut rest = pieces.split_off(inside);
-        rest.extend(self.blocks.drain(block + 1..).flatten());
-        if self.blocks.back().is_some_and(Vec::is_empty) {
+        let mut rest = Arc::make_mut(pieces).split_off(inside);
+        rest.extend(self.blocks.drain(block + 1..).flat_map(Arc::unwrap_or_clone));
+        if self.blocks.back().is_some_and(|block| block.is_empty()) {
             self.blocks.pop_back();
         }
         self.count -= rest.len() as u64;
@@ -91,11 +92,11 @@ impl Track {
     pub(super) fn truncate(&mut self, count: u64) -> usize {
         let mut freed = 0;
         while self.count > count
-            && let Some(noted) = self.blocks.back_mut().and_then(Vec::pop)
+            && let Some(noted) = self.blocks.back_mut().and_then(|block| Arc::make_mut(block).pop())
         {
             freed += bytes_of(&noted);
             self.count -= 1;
-            if self.blocks.back().is_some_and(Vec::is_empty) {
+            if self.blocks.back().is_some_and(|block| block.is_empty()) {
                 self.blocks.pop_back();
             }
         }
@@ -111,7 +112,8 @@ impl Track {
         let mut freed = 0;
         while self.blocks.get(1).and_then(|next| next.first()).is_some_and(|next| next.piece.start() <= time)
         {
-            freed += self.blocks.pop_front().iter().flatten().map(bytes_of).sum::<usize>();
+            let block = self.blocks.pop_front();
+            freed += block.iter().flat_map(|block| block.iter()).map(bytes_of).sum::<usize>();
         }
         freed
     }

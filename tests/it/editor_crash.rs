@@ -29,7 +29,12 @@ fn mass(scene: &Scene) -> u64 {
     body.mass().expect("a mass") as u64
 }
 
-/// Counts up the mass of a body, and saves now and then.
+/// What is typed, and not applied, after so many edits.
+fn draft(count: u64) -> String {
+    format!("{count} <not a scene yet>")
+}
+
+/// Counts up the mass of a body and in a text that is typed, and saves now and then.
 #[test]
 fn child_that_edits_and_saves() {
     let Some(folder) = std::env::var_os(FOLDER) else { return };
@@ -45,6 +50,7 @@ fn child_that_edits_and_saves() {
         let key = session.scene().expect("a scene").bodies.iter().find(|body| body.id == 7).expect("7").key;
         let change = BodyChange::Mass(count as f64);
         session.perform(Action::Edit { edit: Edit::Body { key, change }, gesture: None });
+        session.perform(Action::KeepDraft(Some(draft(count).into())));
         now += PER_EDIT;
         session.poll(now);
         writeln!(progress, "edit {count}").expect("progress");
@@ -76,6 +82,7 @@ fn a_killed_program_loses_no_more_than_the_last_interval() {
     let (mut recovered, mut most_lost) = (0, 0);
     for _ in 0..kills {
         let _ = std::fs::remove_file(folder.path().join("progress"));
+        let start = mass(Document::open(&path).scene().expect("a scene"));
         let mut child = Command::new(std::env::current_exe().expect("this program"))
             .args(["editor_crash::child_that_edits_and_saves", "--exact"])
             .env(FOLDER, folder.path())
@@ -100,15 +107,19 @@ fn a_killed_program_loses_no_more_than_the_last_interval() {
         let in_file = mass(document.scene().expect("a scene"));
         assert!(in_file >= saved, "{in_file} in the file and {saved} saved");
         let mut next = session(folder.path());
-        let mut found = in_file;
+        let (mut found, mut typed) = (in_file, 0);
         if let Some(Question::Recover(_)) = next.question() {
             next.perform(Action::Answer(Answer::Restore));
             found = found.max(mass(next.scene().expect("the copy is whole")));
+            let text = next.draft().unwrap_or_default().to_owned();
+            typed = text.split(' ').next().and_then(|count| count.parse().ok()).unwrap_or_default();
+            assert!(text.is_empty() || text == draft(typed), "a half-written text: {text}");
             recovered += 1;
         }
         let interval = (RECOVERY_INTERVAL.as_millis() / PER_EDIT.as_millis()) as u64;
         most_lost = most_lost.max(edited.saturating_sub(found));
         assert!(edited <= found + interval + 1, "{edited} edits and only {found} found");
+        assert!(edited <= typed.max(start) + interval + 1, "{edited} texts and only {typed} found");
         let leftover = std::fs::read_dir(folder.path()).expect("the folder").flatten();
         let names: Vec<_> = leftover.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
         assert!(names.len() <= 4 + 1, "files are left behind: {names:?}");

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use polyscene::editor::{Action, Addition, Answer, Question, Request, SessionCommand};
-use polyscene::scene::BodyChange;
+use polyscene::scene::{BodyChange, NumberStyle};
 
 use super::editor_support::{Bench, BodyNumbers, SCENE};
 
@@ -181,4 +181,73 @@ fn a_name_that_is_no_utf8_is_kept_and_offered() {
     assert_eq!(bench.session.path(), Some(path.as_path()));
     bench.run(SessionCommand::Save);
     assert!(std::fs::read_to_string(&path).unwrap().contains("<Weight F32=\"3\" />"));
+}
+
+/// Symptom: text typed in the window was lost when it was closed, when another scene was opened, and by a crash. Cause: only
+/// the pane knew of it.
+#[test]
+fn typed_text_is_asked_about_and_outlives_a_crash() {
+    let mut bench = Bench::with_storage(tempfile::tempdir().unwrap());
+    let path = bench.file("scene.xml", SCENE);
+    bench.act(Action::OpenPath(path.clone()));
+    let text = SCENE.replace("-9,8", "-1,6");
+    bench.act(Action::KeepDraft(Some(text.as_str().into())));
+    assert!(!bench.session.is_dirty() && bench.session.has_unsaved_work());
+    bench.wait(Duration::from_secs(1));
+    for command in
+        [SessionCommand::Quit, SessionCommand::OpenSample(0), SessionCommand::New(NumberStyle::Point)]
+    {
+        bench.run(command);
+        assert!(matches!(bench.session.question(), Some(Question::UnappliedText { .. })), "{command:?}");
+        bench.act(Action::Answer(Answer::Cancel));
+        assert_eq!(bench.session.draft(), Some(&*text));
+    }
+    // saving the scene leaves the draft in the copy
+    bench.change(7, BodyChange::Mass(3.0));
+    bench.run(SessionCommand::Save);
+    assert!(!bench.session.is_dirty());
+
+    let Bench { session, folder, .. } = bench;
+    drop(session);
+    let mut bench = Bench::with_storage(folder);
+    let question = bench.session.question().cloned().unwrap();
+    assert!(question.text().contains("text that was not applied"), "{}", question.text());
+    bench.act(Action::Answer(Answer::Restore));
+    assert_eq!(bench.session.draft(), Some(&*text));
+    assert_eq!((bench.session.is_dirty(), bench.session.path()), (false, Some(path.as_path())));
+    assert!(bench.session.take_requests().contains(&Request::ShowText));
+
+    bench.run(SessionCommand::Quit);
+    bench.act(Action::Answer(Answer::Apply));
+    assert!(matches!(bench.session.question(), Some(Question::UnsavedChanges { .. })));
+    bench.act(Action::Answer(Answer::Save));
+    assert_eq!(bench.session.take_requests(), [Request::Quit]);
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
+    bench.wait(Duration::from_secs(20));
+    assert_eq!(recovery_files(&bench.folder), 0);
+}
+
+#[test]
+fn typed_text_with_errors_is_kept_until_it_is_discarded() {
+    let mut bench = Bench::with_storage(tempfile::tempdir().unwrap());
+    bench.act(Action::KeepDraft(Some("<PolyPhysicsXml>".into())));
+    bench.run(SessionCommand::OpenSample(0));
+    let question = bench.session.question().cloned().unwrap();
+    assert_eq!(question.answers(), [Answer::Cancel, Answer::Discard], "{}", question.text());
+    bench.act(Action::Answer(Answer::Discard));
+    assert_eq!((bench.session.draft(), bench.session.opened_count()), (None, 1));
+}
+
+/// Symptom: a window that was closed without saving, as its user said, asked again and again, and left a copy to recover.
+/// Cause: what nobody wants any more still counted as not saved.
+#[test]
+fn what_was_discarded_for_quitting_is_neither_asked_for_nor_kept() {
+    let mut bench = Bench::with_storage(tempfile::tempdir().unwrap());
+    bench.run(SessionCommand::Add(Addition::Plane));
+    bench.wait(Duration::from_secs(5));
+    bench.run(SessionCommand::Quit);
+    bench.act(Action::Answer(Answer::Discard));
+    assert!(!bench.session.has_unsaved_work());
+    bench.wait(Duration::from_secs(5));
+    assert_eq!(recovery_files(&bench.folder), 0);
 }

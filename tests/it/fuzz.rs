@@ -1,11 +1,13 @@
-//! Readers against bytes that somebody spoiled: scenes, MJCF, SDF. No panic, and an answer within a second.
+//! Readers against bytes that somebody spoiled: scenes, MJCF, SDF, recordings. No panic, and an answer within a second.
 //! `POLYSCENE_FUZZ=1000000` says how many files, `POLYSCENE_FUZZ_SEED` and `POLYSCENE_FUZZ_FROM` which ones.
 
 use std::time::{Duration, Instant};
 
 use polyscene::import::import;
 use polyscene::random::Random;
+use polyscene::record::{InlineRunner, RecordingFile, RunCommand, Runner as _};
 use polyscene::scene::Document;
+use polyscene::sim::Method;
 
 /// Files in the tests: some seconds.
 const FILES: usize = 4000;
@@ -95,17 +97,56 @@ fn on_processor() -> Option<Duration> {
     Some(Duration::from_nanos(text.split(' ').next()?.parse().ok()?))
 }
 
+/// A run by thesis steps, whose Δt are in the file.
+fn recording() -> String {
+    let text = include_bytes!("../../scenes/bounce.xml");
+    let document = Document::from_bytes(text);
+    let mut runner = InlineRunner::new();
+    runner.send(RunCommand::Method(Method::Thesis));
+    runner.send(RunCommand::Load(document.scene_shared().expect("a scene")));
+    runner.send(RunCommand::Step { dt: 0.125, count: 3 });
+    runner.send(RunCommand::Step { dt: 0.1, count: 2 });
+    let bytes = runner.recording("bounce.xml", text).and_then(|file| file.to_bytes().ok());
+    String::from_utf8(bytes.expect("a file")).expect("UTF-8")
+}
+
+/// Reads a recording as far as its commands; whether it is one.
+fn is_recording(bytes: &[u8]) -> bool {
+    let Ok(file) = RecordingFile::read(bytes) else { return false };
+    let Ok(document) = file.document() else { return false };
+    RecordingFile::scene(&document).is_ok_and(|scene| file.commands(&scene).is_ok())
+}
+
+/// Symptom: a file of some lines that claimed 10¹⁵ Δt took all memory. Cause: they were listed before anything was done.
+#[test]
+fn a_recording_cannot_claim_more_steps_than_a_run_has() {
+    let text = recording();
+    assert!(is_recording(text.as_bytes()) && text.contains("\"count\": 3"));
+    for count in ["1000000000000000", "18446744073709551615"] {
+        let claimed = text.replace("\"count\": 3", &format!("\"count\": {count}"));
+        let problem = RecordingFile::read(claimed.as_bytes()).expect_err("too many");
+        assert!(problem.to_string().contains("more Δt than a run"), "{problem}");
+    }
+    let many = text.replace("\"count\": 3", "\"count\": 90000000").replace("0.125", "1e-300");
+    let started = Instant::now();
+    assert!(is_recording(many.as_bytes()));
+    assert!(started.elapsed() < Duration::from_secs(20), "{:?}", started.elapsed());
+}
+
 #[test]
 fn spoiled_files_are_read_or_refused_in_time() {
     let number =
         |name: &str, usual| std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(usual);
     let (files, seed) = (number("POLYSCENE_FUZZ", FILES), number("POLYSCENE_FUZZ_SEED", 1));
     let from = number("POLYSCENE_FUZZ_FROM", 0);
-    let mut read = [0_usize; 3];
+    let recording = recording();
+    let mut read = [0_usize; 4];
     let mut longest = Duration::ZERO;
     for file in from..from + files {
         let mut random = Random::new((seed as u64).wrapping_mul(1 << 32) + file as u64);
-        let mut bytes = SEEDS[random.below(SEEDS.len())].as_bytes().to_vec();
+        let seeds = SEEDS.iter().copied().chain([recording.as_str()]);
+        let mut bytes =
+            seeds.clone().nth(random.below(SEEDS.len() + 1)).unwrap_or_default().as_bytes().to_vec();
         for _ in 0..=random.below(6) {
             spoil(&mut bytes, &mut random);
         }
@@ -119,13 +160,14 @@ fn spoiled_files_are_read_or_refused_in_time() {
             let lenient = import(&document, true);
             assert!(strict.document.is_some() || !strict.problems.is_empty());
             let back = lenient.document.map(|document| document.has_errors());
-            (scene, strict.document.is_some(), back)
+            (scene, strict.document.is_some(), back, is_recording(&bytes))
         });
         let took =
             before.and_then(|before| Some(on_processor()? - before)).unwrap_or_else(|| started.elapsed());
         longest = longest.max(took);
         match outcome {
-            Ok((scene, strict, lenient)) => {
+            Ok((scene, strict, lenient, recording)) => {
+                read[3] += usize::from(recording);
                 assert_ne!(lenient, Some(true), "an import with errors: {}", String::from_utf8_lossy(&bytes));
                 read[0] += usize::from(scene);
                 read[1] += usize::from(strict);
@@ -136,10 +178,15 @@ fn spoiled_files_are_read_or_refused_in_time() {
         assert!(took < LONGEST, "file {file} of seed {seed}, {} bytes, took {took:?}", bytes.len());
     }
     println!(
-        "{files} files: {} scenes, {} imports, {} with things left out; the longest {longest:?}",
-        read[0], read[1], read[2]
+        "{files} files: {} scenes, {} imports, {} with things left out, {} recordings; the longest {longest:?}",
+        read[0], read[1], read[2], read[3]
     );
     let memory = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    memory.lines().filter(|line| line.starts_with("VmHWM")).for_each(|line| println!("{line}"));
+    let most =
+        memory.lines().find_map(|line| line.strip_prefix("VmHWM:")?.split_whitespace().next()?.parse().ok());
+    let most_kib: u64 = most.unwrap_or(0);
+    println!("at most {most_kib} KiB of memory");
+    // In a run of all tests the others' memory counts too.
+    assert!(files <= FILES || most_kib < 100 << 10, "{most_kib} KiB");
     assert!(files < FILES || read.iter().all(|count| *count > 0), "mutations leave nothing whole: {read:?}");
 }

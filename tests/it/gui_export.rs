@@ -1,7 +1,5 @@
 //! Scenes for other programs out of the window and theirs into it: the dialog, its preview, the file written, and what is said.
 
-use std::time::{Duration, Instant};
-
 use egui::Key;
 use egui::accesskit::Role;
 
@@ -14,16 +12,6 @@ const MJCF: &str = r#"<mujoco><worldbody>
 </worldbody></mujoco>"#;
 
 impl Window {
-    fn wait_for(&mut self, text: &str) {
-        let since = Instant::now();
-        while !self.has_containing(text) {
-            assert!(since.elapsed() < Duration::from_secs(60), "{text} does not come: {:?}", self.labels());
-            std::thread::sleep(Duration::from_millis(10));
-            self.harness.step();
-        }
-        self.harness.run();
-    }
-
     /// Opens the dialog for a format.
     fn export(&mut self, format: &str) {
         self.menu("File", "Export…");
@@ -120,4 +108,41 @@ fn a_file_of_mujoco_is_opened_after_asking_what_to_leave_out() {
     assert!(window.harness.state().session().path().is_none());
     assert!(window.body("2").name.as_deref() == Some("one"), "{:?}", window.scene().bodies);
     assert_eq!(std::fs::read_to_string(&file).unwrap(), MJCF);
+}
+
+/// Symptom: the motion that was exported was not the one on the screen when the run had been edited on its way. Expected: the
+/// places at the frames, bit for bit as the run had them. Cause: the scene was simulated anew from its start.
+#[test]
+fn the_motion_is_that_of_the_run_with_its_edits() {
+    let mut window = Window::sample("bounce");
+    let fps = 40.0;
+    let mut seen = Vec::new();
+    for nth in 0..=40 {
+        if nth == 10 {
+            window.click_role(Role::TreeItem, "Gravity");
+            window.type_number("Acceleration y", "-3");
+        }
+        super::gui_timeline::type_time(&mut window, &format!("{}", f64::from(nth) / fps));
+        seen.push(window.frame().bodies[0].position.y);
+    }
+    window.menu("File", "Export…");
+    window.click_role(Role::RadioButton, "Table of bodies (CSV)");
+    window.click_role(Role::RadioButton, "The motion");
+    window.wait_for("Looked up in what this run has recorded");
+    window.type_number("Frames per second", "40");
+    window.wait_for("41 frames");
+    window.click_role(Role::Button, "Choose a file…");
+    window.type_text("File name or path", "motion.csv");
+    let table = std::fs::read_to_string(window.folder.path().join("motion.csv")).unwrap();
+    let found: Vec<f64> =
+        table.lines().skip(1).map(|row| row.split(',').nth(4).unwrap().parse().unwrap()).collect();
+    assert_eq!(found, seen);
+    let fallen = 0.5 * 9.8;
+    assert!((seen[0] - seen[40]).abs() < fallen, "the edit counts");
+
+    window.menu("File", "Export…");
+    window.click_role(Role::RadioButton, "Table of bodies (CSV)");
+    window.click_role(Role::RadioButton, "The motion");
+    window.type_number("To", "2");
+    window.wait_for("Simulated anew from the start: this run is recorded from 0 s to 1 s");
 }

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, Pos2, Rect};
@@ -146,6 +147,17 @@ impl Window {
 
     pub fn has_containing(&self, text: &str) -> bool {
         self.harness.query_all_by_label_contains(text).next().is_some()
+    }
+
+    /// Lets work in the background go on until a text is there.
+    pub fn wait_for(&mut self, text: &str) {
+        let since = Instant::now();
+        while !self.has_containing(text) {
+            assert!(since.elapsed() < Duration::from_secs(60), "{text} does not come: {:?}", self.labels());
+            std::thread::sleep(Duration::from_millis(10));
+            self.harness.step();
+        }
+        self.harness.run();
     }
 
     /// All that has a name.

@@ -39,6 +39,12 @@ impl Window {
         !self.harness.get_by_role_and_label(Role::Button, button).accesskit_node().is_disabled()
     }
 
+    fn close(&mut self) {
+        let viewport = self.harness.input_mut().viewports.entry(egui::ViewportId::ROOT).or_default();
+        viewport.events.push(egui::ViewportEvent::Close);
+        self.harness.run();
+    }
+
     /// What was put on the clipboard last.
     fn copied(&self) -> Option<String> {
         let commands = &self.harness.output().platform_output.commands;
@@ -193,4 +199,45 @@ fn a_file_that_is_no_scene_is_mended_in_the_window() {
     assert!(!window.scene().bodies.is_empty());
     window.key(egui::Key::Period);
     assert!(window.frame().time > 0.0, "it runs");
+}
+
+/// Symptom: closing the window dropped what was typed in the text. Expected: a question, as before changes are lost.
+#[test]
+fn closing_the_window_asks_about_text_that_is_not_applied() {
+    let mut window = Window::xml("bounce");
+    let text = window.saved().replace("\r\n", "\n").replace("<Map>", "<Map><!-- mine -->");
+    window.click_role(Role::Button, "Edit text");
+    window.close();
+    assert!(!window.has("Text not applied"), "nothing was typed");
+    window.type_file(&text);
+    window.close();
+    assert!(window.has("Text not applied"));
+    window.click_role(Role::Button, "Cancel");
+    assert_eq!(window.edited().as_deref(), Some(&*text));
+    window.key_with(Modifiers::COMMAND, egui::Key::N);
+    window.click_role(Role::Button, "Discard");
+    assert!(window.scene().bodies.is_empty() && window.edited().is_none(), "a new scene, and its text");
+
+    window.click_role(Role::Button, "Edit text");
+    let text = window.edited().unwrap().replace("<Map>", "<Map><!-- mine -->");
+    window.type_file(&text);
+    window.close();
+    window.harness.get_all_by_role_and_label(Role::Button, "Apply").last().unwrap().click();
+    window.harness.run();
+    assert!(window.has("Unsaved changes"));
+    window.click_role(Role::Button, "Discard");
+    window.close();
+    assert!(!window.has("Unsaved changes"), "it was said that they may go");
+}
+
+/// A turn in which something is typed and the window is closed.
+#[test]
+fn the_last_letter_before_closing_is_not_lost() {
+    let mut window = Window::xml("bounce");
+    window.click_role(Role::Button, "Edit text");
+    window.harness.get_by_role_and_label(Role::MultilineTextInput, FIELD).focus();
+    window.harness.run();
+    window.harness.event(egui::Event::Text(" ".to_owned()));
+    window.close();
+    assert!(window.has("Text not applied"));
 }

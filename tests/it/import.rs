@@ -204,12 +204,12 @@ const BOTH: &str = r##"<PolyPhysicsXml Version="1.1">
   <Primitives>
     <SoftObject UserID="17"><?polyscene name="red ball" color="#ff0000"?>
       <Translation X="1.5" Y="2" Z="3" /><Rotation X="0.3" Y="-0.5" Z="1" /><Bounce F32="0.9" />
-      <Friction F32="0.3" /><Weight F32="2" /><InitialAngularVelocity X="5" Y="-6" Z="7" /><InitialVelocity X="1" Y="-2" Z="3" />
+      <Friction F32="0.3" /><RollingFriction F32="0.02" /><Weight F32="2" /><InitialAngularVelocity X="5" Y="-6" Z="7" /><InitialVelocity X="1" Y="-2" Z="3" />
       <Sphere><Radius F32="0.25" /></Sphere></SoftObject>
-    <SoftObject UserID="5"><Translation X="4" Y="2" Z="1" /><Bounce F32="0.8" /><Friction F32="0.6" /><Sphere><Radius F32="0.5" /></Sphere></SoftObject>
+    <SoftObject UserID="5"><Translation X="4" Y="2" Z="1" /><Bounce F32="0.8" /><Friction F32="0.6" /><RollingFriction F32="0.01" /><Sphere><Radius F32="0.5" /></Sphere></SoftObject>
     <HardObject UserID="9"><?polyscene hidden="1"?><Translation X="3" Y="1" Z="1" /><Bounce F32="0.4" /><Sphere><Radius F32="0.125" /></Sphere></HardObject>
     <HardObject UserID="8"><?polyscene name="floor"?><Translation X="5" Y="0" Z="2" /><Rotation X="-1.5707963267948966" Y="0" Z="0" />
-      <Bounce F32="0.7" /><Friction F32="0.2" /><Plane><HalfSideX F32="5" /><HalfSideY F32="2" /></Plane></HardObject>
+      <Bounce F32="0.7" /><Friction F32="0.2" /><RollingFriction F32="0.05" /><Plane><HalfSideX F32="5" /><HalfSideY F32="2" /></Plane></HardObject>
     <HardObject UserID="7"><?polyscene name="lid"?><Translation X="5" Y="4.5" Z="2" /><Rotation X="1.2" Y="0.3" Z="-0.4" />
       <Bounce F32="1" /><Plane><HalfSideX F32="5" /><HalfSideY F32="2" /></Plane></HardObject>
   </Primitives>
@@ -234,6 +234,7 @@ fn assert_same_bodies(back: &Scene, ids: bool) {
         assert!(rotation_matrix(a.rotation).abs_diff_eq(rotation_matrix(b.rotation), 1e-12), "{a:?}\n{b:?}");
         assert!((a.bounce - b.bounce).abs() < 1e-8, "{a:?}\n{b:?}");
         assert!((a.roughness.friction - b.roughness.friction).abs() < 1e-8, "{a:?}\n{b:?}");
+        assert!((a.roughness.rolling - b.roughness.rolling).abs() < 1e-8, "{a:?}\n{b:?}");
         assert!((a.spin - b.spin).length() < 1e-12, "{a:?}\n{b:?}");
         assert_eq!(a.motion, b.motion);
         if ids {
@@ -297,5 +298,27 @@ fn every_sample_comes_back() {
                 assert_eq!(scene_of(&back).bodies.len(), before, "{} by {}", path.display(), format.id);
             }
         }
+    }
+}
+
+/// Condim 6 has rolling friction, a lever in m: 7/5 of this program's coefficient times the radius.
+#[test]
+fn rolling_friction_of_mujoco_becomes_a_coefficient() {
+    let text = |floor: &str, ball: &str| {
+        format!(
+            "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1' {floor}/>
+             <body name='ball' pos='0 0 1'><freejoint/><geom size='.5' {ball}/></body></worldbody></mujoco>"
+        )
+    };
+    let rolling = |text: &str, name: &str| body(scene_of(&imported(text)), name).roughness.rolling;
+    let file = text("condim='6' friction='1 0 .028'", "condim='6' friction='1 0 .007'");
+    assert!((rolling(&file, "ball") - 0.01).abs() < 1e-9);
+    // The larger lever counts there, 0.04 as a coefficient: √(0.01 · 0.16) here.
+    assert!((rolling(&file, "floor") - 0.16).abs() < 1e-9, "{}", rolling(&file, "floor"));
+    let file = text("friction='1 0 .028'", "friction='1 .2 .007'");
+    assert_eq!((rolling(&file, "ball"), rolling(&file, "floor")), (0.0, 0.0), "condim 3 has none");
+    let said = lines(&imported(&text("", "condim='6' friction='1 .2 .007'")));
+    for line in ["approximated: rolling friction of a geom", "dropped: torsional friction of a geom"] {
+        assert!(said.contains(line), "{said}");
     }
 }

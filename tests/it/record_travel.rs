@@ -249,3 +249,33 @@ fn at_an_event_its_bodies_come_and_leave() {
     let again = after(&mut runner, RunCommand::EventBack { of: Of::All });
     assert!(again.at_impact[0].at_end.is_some(), "the end of the Δt is known now");
 }
+
+/// What is handed out of the recording has the bits of the run, with how bodies are turned, and stays as it was.
+#[test]
+fn recorded_motion_is_looked_up_with_the_bits_of_the_run() {
+    for scene in ["thesis-appendix-2.xml", "billiards.xml"] {
+        let mut runner = loaded(scene);
+        let mut shown = Vec::new();
+        for _ in 0..90 {
+            let frame = step(&mut runner, 1);
+            let states = frame.bodies.iter().map(|body| (body.position, body.velocity, body.turn));
+            shown.push((frame.time, states.collect::<Vec<_>>()));
+        }
+        let motion = after(&mut runner, RunCommand::ShareMotion(true)).motion.clone().expect("the motion");
+        step(&mut runner, 10);
+        assert!(Arc::ptr_eq(&motion, runner.frame().motion.as_ref().expect("the same")));
+        assert_eq!(motion.span(), (0.0, shown.last().expect("a time").0));
+        for (time, states) in &shown {
+            for (nth, state) in states.iter().enumerate() {
+                let found = motion.state(nth, *time).expect("it is recorded");
+                assert_eq!(
+                    (found.position, found.velocity, found.turn),
+                    *state,
+                    "{scene}: {nth} at {time} s"
+                );
+            }
+        }
+        assert!(motion.state(0, motion.span().1 + 1.0).is_none());
+        assert!(after(&mut runner, RunCommand::ShareMotion(false)).motion.is_none());
+    }
+}

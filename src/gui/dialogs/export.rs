@@ -1,19 +1,21 @@
 //! File ▸ Export: for which program, which moment or motion, and beforehand what becomes of everything in the scene.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use egui::{
     Align, Button, Context, DragValue, Id, Layout, Modal, ProgressBar, RichText, ScrollArea, Ui, vec2,
 };
 
 use super::FileRequest;
-use super::export_job::ExportJob;
 use super::report::{self, Line};
-use crate::editor::{ExportedFile, parse_number};
+use crate::editor::{Action, ExportedFile, parse_number};
 use crate::export::{Exported, FORMATS, Format, Frames, When};
+use crate::gui::background::Background;
 use crate::gui::colors::tones;
 use crate::gui::context::AppContext;
 use crate::gui::numbers::{count, significant};
+use crate::record::RecordedMotion;
 
 /// What of the scene's run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,12 +31,16 @@ pub struct ExportDialog {
     frames: Frames,
     /// What was asked for last, with its answer once it is there.
     asked: Option<Asked>,
-    job: Option<ExportJob>,
+    job: Option<Background<Exported>>,
     outcome: Option<Result<Exported, String>>,
+    /// Whether the motion that is recorded has been asked for.
+    awaits_motion: bool,
+    /// Whether the times of the motion are the user's own.
+    has_times: bool,
 }
 
 /// Document, format and moment, told apart by their numbers.
-type Asked = (u64, u64, usize, [u64; 5]);
+type Asked = (u64, u64, usize, [u64; 6]);
 
 /// What a turn of the dialog ended with.
 pub enum Decision {
@@ -49,11 +55,20 @@ const USUAL: Frames = Frames { from: 0.0, to: 5.0, fps: 60.0 };
 impl ExportDialog {
     pub fn new(format: usize) -> Self {
         let format = format.min(FORMATS.len().saturating_sub(1));
-        Self { format, part: Part::Start, frames: USUAL, asked: None, job: None, outcome: None }
+        Self {
+            format,
+            part: Part::Start,
+            frames: USUAL,
+            asked: None,
+            job: None,
+            outcome: None,
+            awaits_motion: false,
+            has_times: false,
+        }
     }
 
     pub fn is_working(&self) -> bool {
-        self.job.is_some()
+        self.job.is_some() || self.awaits_motion
     }
 
     pub fn show(&mut self, ctx: &Context, context: &AppContext<'_>) -> Decision {
@@ -115,6 +130,7 @@ impl ExportDialog {
             motion.on_disabled_hover_text("This format holds a start only");
         });
         if self.part == Part::Motion {
+            self.take_recorded_times(context);
             let Frames { from, to, fps } = &mut self.frames;
             let fields = [("From", from, "s"), ("To", to, "s"), ("Frames per second", fps, "1/s")];
             egui::Grid::new("frames").num_columns(3).spacing([8.0, 4.0]).show(ui, |ui| {
@@ -127,7 +143,33 @@ impl ExportDialog {
                     ui.end_row();
                 }
             });
+            ui.label(RichText::new(self.source(context)).color(tones(ui).weak).small());
         }
+    }
+
+    /// Proposes the part of the run that is recorded, once.
+    fn take_recorded_times(&mut self, context: &AppContext<'_>) {
+        let recorded = &context.session.frame().recorded;
+        if !std::mem::replace(&mut self.has_times, true) && recorded.to > recorded.from {
+            (self.frames.from, self.frames.to) = (recorded.from, recorded.to);
+        }
+    }
+
+    /// Whether the run that is shown has the motion asked for.
+    fn is_recorded(&self, context: &AppContext<'_>) -> bool {
+        let recorded = &context.session.frame().recorded;
+        let within = recorded.from <= self.frames.from && self.frames.to <= recorded.to;
+        self.part == Part::Motion && within && !context.session.needs_reset()
+    }
+
+    /// Where the motion comes from, in words.
+    fn source(&self, context: &AppContext<'_>) -> String {
+        if self.is_recorded(context) {
+            return "Looked up in what this run has recorded".to_owned();
+        }
+        let recorded = &context.session.frame().recorded;
+        let [from, to] = [recorded.from, recorded.to].map(|time| significant(time, 6));
+        format!("Simulated anew from the start: this run is recorded from {from} s to {to} s")
     }
 
     fn chosen(&self) -> Option<&'static Format> {
@@ -144,25 +186,62 @@ impl ExportDialog {
         let now = if self.part == Part::Now { session.frame().time.to_bits() } else { 0 };
         let Frames { from, to, fps } = self.frames;
         let motion = if self.part == Part::Motion { [from, to, fps].map(f64::to_bits) } else { [0; 3] };
-        let moment = [self.part as u64, now, motion[0], motion[1], motion[2]];
+        let is_recorded = self.is_recorded(context);
+        let moment = [self.part as u64, now, motion[0], motion[1], motion[2], u64::from(is_recorded)];
         let asked = (session.opened_count(), session.document_state(), self.format, moment);
         if self.asked != Some(asked) {
-            (self.asked, self.job, self.outcome) = (Some(asked), None, None);
+            self.end(context);
+            (self.asked, self.job, self.outcome, self.awaits_motion) = (Some(asked), None, None, false);
             let document = match self.part {
                 Part::Now => session.document_now().map_err(|error| error.to_string()),
                 Part::Start | Part::Motion => Ok(session.document().clone()),
             };
             let refusal = (self.part == Part::Motion).then(|| self.frames.refusal()).flatten();
             match (refusal, document, self.chosen()) {
+                (None, Ok(_), Some(_)) if is_recorded => {
+                    self.awaits_motion = true;
+                    context.outbox.act(Action::ShareMotion(true));
+                }
                 (None, Ok(document), Some(format)) => {
-                    self.job = Some(ExportJob::start(ctx, format, document, self.when()));
+                    let when = self.when();
+                    self.job = Some(Background::start(ctx, move |go_on| {
+                        let exported = format.export_when(&document, when, &mut |part, _events| go_on(part));
+                        exported.map_err(|error| error.to_string())
+                    }));
                 }
                 (Some(problem), ..) | (None, Err(problem), _) => self.outcome = Some(Err(problem)),
                 (None, Ok(_), None) => {}
             }
         }
-        if let Some(outcome) = self.job.as_ref().and_then(ExportJob::take) {
+        self.look_up(ctx, context);
+        if let Some(outcome) = self.job.as_ref().and_then(Background::take) {
             (self.job, self.outcome) = (None, Some(outcome));
+        }
+    }
+
+    /// Begins as soon as the motion is there that was asked for.
+    fn look_up(&mut self, ctx: &Context, context: &AppContext<'_>) {
+        let frames = self.frames;
+        let has_all = |motion: &&Arc<RecordedMotion>| {
+            let (from, to) = motion.span();
+            from <= frames.from && frames.to <= to
+        };
+        let motion = context.session.frame().motion.as_ref().filter(has_all);
+        let (true, Some(motion), Some(format)) = (self.awaits_motion, motion, self.chosen()) else { return };
+        let (motion, document) = (motion.clone(), context.session.document().clone());
+        self.awaits_motion = false;
+        self.job = Some(Background::start(ctx, move |go_on| {
+            let exported = format.export_recorded(&document, &motion, frames, go_on);
+            exported.map_err(|error| error.to_string())
+        }));
+        // The job has its own hold on it.
+        context.outbox.act(Action::ShareMotion(false));
+    }
+
+    /// Nothing is waited for any more.
+    pub fn end(&mut self, context: &AppContext<'_>) {
+        if std::mem::take(&mut self.awaits_motion) {
+            context.outbox.act(Action::ShareMotion(false));
         }
     }
 

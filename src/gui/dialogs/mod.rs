@@ -1,7 +1,6 @@
 //! Dialogs: questions, files, the command palette, help.
 
 mod export;
-mod export_job;
 mod files;
 mod help;
 mod palette;
@@ -147,7 +146,9 @@ impl Dialogs {
                 self.export = None;
                 self.ask(ctx, request);
             }
-            Some(export::Decision::Cancel) => self.export = None,
+            Some(export::Decision::Cancel) => {
+                self.export.take().into_iter().for_each(|mut export| export.end(context));
+            }
             Some(export::Decision::Open) | None => {}
         }
         if let Some(import) = &self.import

@@ -3,6 +3,7 @@
 use crate::gui::context::AppContext;
 use crate::gui::numbers::significant;
 use crate::record::EventRow;
+use crate::scene::Map;
 use crate::sim::EventKind;
 
 /// One column.
@@ -42,7 +43,8 @@ pub const COLUMNS: [LedgerColumn; 12] = [
         help: "Where in its Δt it happened, 0 % to 100 %, if all Δt are as long as that being looked at",
         width: 48.0,
         text: |context, row| {
-            fraction(context, row).map_or(String::new(), |share| format!("{:.0} %", 100.0 * share))
+            fraction(context.session.frame().step, row)
+                .map_or(String::new(), |share| format!("{:.0} %", 100.0 * share))
         },
         key: None,
     },
@@ -111,7 +113,8 @@ pub const COLUMNS: [LedgerColumn; 12] = [
         help: "Tile of the map that the place lies in, counted from 0",
         width: 76.0,
         text: |context, row| {
-            tile(context, row).map_or(String::new(), |tile| tile.map(|number| number.to_string()).join(", "))
+            let map = context.scene().map(|scene| scene.map);
+            tile(map, row).map_or(String::new(), |tile| tile.map(|number| number.to_string()).join(", "))
         },
         key: None,
     },
@@ -140,16 +143,16 @@ fn vector(value: glam::DVec3, size: f64) -> String {
     value.to_array().map(|part| significant(clean(part), 5)).join(", ")
 }
 
-/// Where in its Δt an event happened.
-pub(super) fn fraction(context: &AppContext<'_>, row: &EventRow) -> Option<f64> {
-    let (start, end) = context.session.frame().step.filter(|(start, end)| end > start)?;
+/// Where in its Δt an event happened, if all Δt are as long as one from a start to an end.
+pub(super) fn fraction(step: Option<(f64, f64)>, row: &EventRow) -> Option<f64> {
+    let (start, end) = step.filter(|(start, end)| end > start)?;
     let share = (row.event.time - start) / (end - start);
     Some(if (0.0..=1.0).contains(&share) { share } else { share - share.floor() })
 }
 
 /// The tile of the map that an event was in, counted from 0.
-pub(super) fn tile(context: &AppContext<'_>, row: &EventRow) -> Option<[u32; 3]> {
-    let map = context.scene()?.map;
+pub(super) fn tile(map: Option<Map>, row: &EventRow) -> Option<[u32; 3]> {
+    let map = map?;
     let place = row.event.point / map.size;
     let inside = place.cmpge(glam::DVec3::ZERO).all() && place.cmple(glam::DVec3::ONE).all();
     let tiles = map.tiles.map(f64::from);

@@ -8,7 +8,7 @@ mod written;
 
 use std::sync::Arc;
 
-use egui::{RichText, Sense, Ui};
+use egui::{Context, ProgressBar, RichText, Sense, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
 
 use super::colors::tones;
@@ -20,6 +20,7 @@ use crate::record::EventRow;
 use columns::{BODIES, COLUMNS, KIND, joined};
 use filter::FilterBar;
 use listed::{Listed, Order};
+use written::{Kind, Rows, Writing};
 
 pub use columns::bodies;
 
@@ -31,6 +32,8 @@ pub struct LedgerPanel {
     listed: Listed,
     /// The event shown when the list was scrolled to it last.
     scrolled_to: Option<u64>,
+    /// Rows that are being written for a file or a copy.
+    writing: Option<Writing>,
 }
 
 impl LedgerPanel {
@@ -97,26 +100,32 @@ impl LedgerPanel {
         Some(self.listed.place_of(&frame.ledger, event - nth)?.saturating_sub(1))
     }
 
-    /// What takes the rows listed away: a copy, files.
+    /// What takes the rows listed away: a copy, files. A million rows take seconds, with a way to give up.
     pub fn buttons(&mut self, ui: &mut Ui, context: &AppContext<'_>) {
-        let clicked =
-            |ui: &mut Ui, name: &str, help: &str| ui.small_button(name).on_hover_text(help).clicked();
-        let copies = clicked(ui, "Copy", "The rows listed as text with tabs, for a spreadsheet");
-        let csv = clicked(ui, "CSV…", "Writes the rows listed to a file, with all digits");
-        let json = clicked(ui, "JSON…", "Writes the rows listed to a file of JSON Lines, with all digits");
-        if !(copies || csv || json) {
+        if let Some(writing) = &self.writing {
+            let bar = ProgressBar::new(writing.part()).desired_width(120.0).desired_height(12.0);
+            ui.add(bar).on_hover_text("Writing the rows listed");
+            if ui.small_button("Cancel writing").clicked() {
+                self.writing = None;
+            }
             return;
         }
-        let ledger = &context.session.frame().ledger;
-        while self.listed.look(ledger, &self.bar.wanted(context), self.order) {}
-        let rows = self.listed.rows(ledger);
-        if copies {
-            ui.ctx().copy_text(written::table(context, rows, "\t"));
-        } else if csv {
-            context.outbox.send(written::request(context, "csv", written::table(context, rows, ",")));
-        } else {
-            context.outbox.send(written::request(context, "jsonl", written::json_lines(context, rows)));
+        let buttons = [
+            (Kind::Copy, "Copy", "The rows listed as text with tabs, for a spreadsheet"),
+            (Kind::Csv, "CSV…", "Writes the rows listed to a file, with all digits"),
+            (Kind::Json, "JSON…", "Writes the rows listed to a file of JSON Lines, with all digits"),
+        ];
+        for (kind, name, help) in buttons {
+            if ui.small_button(name).on_hover_text(help).clicked() {
+                let rows = Rows::new(context, kind, self.bar.wanted(context), self.order);
+                self.writing = Some(rows.start(ui.ctx()));
+            }
         }
+    }
+
+    /// Hands on rows that have been written, whichever panel is in front.
+    pub fn finish_writing(&mut self, ctx: &Context, context: &AppContext<'_>) {
+        self.writing.take_if(|writing| writing.finish(ctx, context));
     }
 }
 

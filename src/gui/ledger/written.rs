@@ -1,13 +1,17 @@
-//! The rows of the ledger as text: what `run --events` writes of an event, and what the ledger knows beyond that.
+//! The rows of the ledger as text, written in the background: what `run --events` writes of an event, and what the ledger knows
+//! beyond that.
 
-use std::sync::Arc;
-
+use egui::Context;
 use serde::Serialize;
 
 use super::columns::{fraction, tile};
+use super::filter::Filter;
+use super::listed::{Listed, Order};
 use crate::editor::ExportedFile;
+use crate::gui::background::{Background, GoOn};
 use crate::gui::context::{AppContext, Message};
-use crate::record::{Column, EVENT_COLUMNS, EventLine, EventRow, cells};
+use crate::record::{Column, EVENT_COLUMNS, EventLine, EventRow, Ledger, cells};
+use crate::scene::Map;
 
 /// What a [`Line`] has besides the columns of an event.
 const OWN_COLUMNS: &[Column] = &[
@@ -34,50 +38,117 @@ struct Line<'a> {
     tile: Option<[u32; 3]>,
 }
 
-impl<'a> Line<'a> {
-    fn new(context: &AppContext<'_>, row: &'a EventRow) -> Self {
+/// How rows are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// With tabs, for the clipboard.
+    Copy,
+    Csv,
+    Json,
+}
+
+/// What is written: a copy of the ledger shares its rows.
+pub(super) struct Rows {
+    pub kind: Kind,
+    pub ledger: Ledger,
+    pub filter: Filter,
+    pub order: Order,
+    step: Option<(f64, f64)>,
+    map: Option<Map>,
+}
+
+impl Rows {
+    pub fn new(context: &AppContext<'_>, kind: Kind, filter: Filter, order: Order) -> Self {
+        let frame = context.session.frame();
+        let map = context.scene().map(|scene| scene.map);
+        Self { kind, ledger: frame.ledger.clone(), filter, order, step: frame.step, map }
+    }
+
+    /// Begins to write them.
+    pub fn start(self, ctx: &Context) -> Writing {
+        Writing { kind: self.kind, job: Background::start(ctx, move |go_on| self.text(go_on)) }
+    }
+
+    fn text(&self, go_on: GoOn<'_>) -> Result<String, String> {
+        let cancelled = || Err("the rows were not written: it was cancelled".to_owned());
+        let mut listed = Listed::default();
+        while listed.look(&self.ledger, &self.filter, self.order) {
+            if !go_on(0.0) {
+                return cancelled();
+            }
+        }
+        let columns: Vec<&Column> = EVENT_COLUMNS.iter().chain(OWN_COLUMNS).collect();
+        let mut text = String::new();
+        if let Some(separator) = self.separator() {
+            text = columns.iter().map(|column| column.name).collect::<Vec<_>>().join(separator) + "\n";
+        }
+        for (nth, row) in listed.rows(&self.ledger).enumerate() {
+            if nth.is_multiple_of(LOOK) && !go_on(nth as f64 / listed.len() as f64) {
+                return cancelled();
+            }
+            let line = self.line(row);
+            match self.separator() {
+                Some(separator) => text.push_str(&cells(&line, columns.iter().copied()).join(separator)),
+                // numbers and text are always JSON
+                None => text.push_str(&serde_json::to_string(&line).unwrap_or_default()),
+            }
+            text.push('\n');
+        }
+        Ok(text)
+    }
+
+    /// Between the cells of a table.
+    fn separator(&self) -> Option<&'static str> {
+        match self.kind {
+            Kind::Copy => Some("\t"),
+            Kind::Csv => Some(","),
+            Kind::Json => None,
+        }
+    }
+
+    fn line<'a>(&self, row: &'a EventRow) -> Line<'a> {
         let [nth, of] = row.event.row_in_group;
-        Self {
+        Line {
             event: EventLine::new(&row.event, &row.a_label, row.b_key.map(|_| &*row.b_label)),
-            fraction: fraction(context, row),
+            fraction: fraction(self.step, row),
             energy_change: row.energy_change(),
             row: nth,
             rows: of,
-            tile: tile(context, row),
+            tile: tile(self.map, row),
         }
     }
 }
 
-/// A line with the names of the columns, and one for each row.
-pub(super) fn table<'a>(
-    context: &AppContext<'_>,
-    rows: impl Iterator<Item = &'a Arc<EventRow>>,
-    separator: &str,
-) -> String {
-    let columns = || EVENT_COLUMNS.iter().chain(OWN_COLUMNS);
-    let mut text = columns().map(|column| column.name).collect::<Vec<_>>().join(separator) + "\n";
-    for row in rows {
-        text.push_str(&cells(&Line::new(context, row), columns()).join(separator));
-        text.push('\n');
-    }
-    text
+/// Rows between two looks at whether to go on.
+const LOOK: usize = 1024;
+
+/// Rows that are being written.
+pub(super) struct Writing {
+    kind: Kind,
+    job: Background<String>,
 }
 
-pub(super) fn json_lines<'a>(
-    context: &AppContext<'_>,
-    rows: impl Iterator<Item = &'a Arc<EventRow>>,
-) -> String {
-    let mut text = String::new();
-    for row in rows {
-        // numbers and text are always JSON
-        text.push_str(&serde_json::to_string(&Line::new(context, row)).unwrap_or_default());
-        text.push('\n');
+impl Writing {
+    /// From 0 to 1.
+    pub fn part(&self) -> f32 {
+        self.job.part()
     }
-    text
+
+    /// Hands on what was written; whether that is done.
+    pub fn finish(&self, ctx: &Context, context: &AppContext<'_>) -> bool {
+        let Some(outcome) = self.job.take() else { return false };
+        match (self.kind, outcome) {
+            (_, Err(problem)) => context.outbox.send(Message::Warn(problem)),
+            (Kind::Copy, Ok(text)) => ctx.copy_text(text),
+            (Kind::Csv, Ok(text)) => context.outbox.send(request(context, "csv", text)),
+            (Kind::Json, Ok(text)) => context.outbox.send(request(context, "jsonl", text)),
+        }
+        true
+    }
 }
 
 /// Asks where a file of rows goes.
-pub(super) fn request(context: &AppContext<'_>, extension: &'static str, text: String) -> Message {
+fn request(context: &AppContext<'_>, extension: &'static str, text: String) -> Message {
     let title = context.session.title();
     let stem = title.strip_suffix(".xml").unwrap_or(title);
     Message::AskWhere {

@@ -8,6 +8,7 @@ use egui::text_edit::TextEditState;
 use egui::{Color32, FontId, Galley, Id, Label, RichText, ScrollArea, Sense, Stroke, TextEdit, Ui};
 
 use super::colors::piece;
+use crate::editor::Action;
 use crate::gui::colors::{Tones, tones};
 use crate::gui::context::AppContext;
 use crate::scene::{Diagnostic, Document};
@@ -67,6 +68,12 @@ impl Draft {
         draft
     }
 
+    /// Goes on with a text that was typed before.
+    pub fn take(&mut self, text: &str) {
+        self.text = if self.carriage_returns { text.replace("\r\n", "\n") } else { text.to_owned() };
+        self.typed = Some(f64::NEG_INFINITY);
+    }
+
     pub fn is_changed(&self) -> bool {
         self.text != self.before
     }
@@ -110,6 +117,8 @@ impl Draft {
         ScrollArea::both().id_salt("xml draft").auto_shrink([false, false]).show(ui, |ui| {
             if self.edit(ui) {
                 self.typed = Some(now);
+                let kept = self.is_changed().then(|| self.written().into());
+                context.outbox.act(Action::KeepDraft(kept));
                 ui.ctx().request_repaint();
             }
         });

@@ -30,7 +30,7 @@ pub struct XmlPane {
     /// What was selected when the text was scrolled last.
     shown: Option<NodeKey>,
     shows_changes: bool,
-    /// The text while it is edited. It stays until it is applied or reverted.
+    /// The text while it is edited. It stays until it is applied or reverted; what was typed lies in the session too.
     draft: Option<Draft>,
     /// The changes since saving, and of which document.
     changes: Option<((u64, u64), Vec<DiffLine>)>,
@@ -45,11 +45,26 @@ impl XmlPane {
             self.text = DocumentText::of(context.session.document());
             self.of = Some(of);
         }
+        self.look_at_draft(context, of);
         self.bar(ui, context, of);
         match &mut self.draft {
             _ if self.shows_changes => self.changes(ui, context, of),
             Some(draft) => draft.show(ui, context),
             None => self.text(ui, context),
+        }
+    }
+
+    /// A draft belongs to the scene that is open: the session keeps it over a crash and asks before it goes.
+    fn look_at_draft(&mut self, context: &AppContext<'_>, of: (u64, u64)) {
+        let kept = context.session.draft();
+        if kept.is_none() && self.draft.as_ref().is_some_and(|draft| draft.of.0 != of.0) {
+            self.draft = None;
+        }
+        if let (Some(kept), None) = (kept, &self.draft) {
+            let mut draft = Draft::of(context.session.document(), (self.text.text(), 0), of);
+            draft.take(kept);
+            self.draft = Some(draft);
+            self.shows_changes = false;
         }
     }
 
@@ -90,11 +105,9 @@ impl XmlPane {
     /// Apply and Revert, and what stands in the way.
     fn edit_buttons(&mut self, ui: &mut Ui, context: &AppContext<'_>, of: (u64, u64)) {
         let Some(draft) = &self.draft else { return };
-        let is_of_this_file = draft.of.0 == of.0;
-        let can_apply = is_of_this_file && draft.is_changed() && draft.is_checked() && draft.errors() == 0;
+        let can_apply = draft.is_changed() && draft.is_checked() && draft.errors() == 0;
         let apply = ui.add_enabled(can_apply, egui::Button::new("Apply"));
         let why_not = match draft.errors() {
-            _ if !is_of_this_file => "The text is that of the scene open before",
             0 => "Nothing was changed",
             _ => "The text has errors",
         };
@@ -104,7 +117,6 @@ impl XmlPane {
             ui.button("Revert").on_hover_text("Drops what was typed and shows the scene's text again");
         let tones = tones(ui);
         let (text, color) = match draft.errors() {
-            _ if !is_of_this_file => ("text of the scene open before".to_owned(), tones.warning),
             0 if draft.of != of => {
                 ("the scene changed meanwhile: applying replaces those changes".to_owned(), tones.warning)
             }
@@ -115,6 +127,9 @@ impl XmlPane {
         ui.label(RichText::new(text).color(color));
         if apply.clicked() {
             context.outbox.act(Action::ReplaceText(draft.written()));
+        }
+        if revert.clicked() {
+            context.outbox.act(Action::KeepDraft(None));
         }
         if apply.clicked() || revert.clicked() {
             self.draft = None;

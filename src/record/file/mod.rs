@@ -26,6 +26,9 @@ const VERSION: u32 = 1;
 /// Length of a Δt where none is recorded, s.
 const USUAL_DT: f64 = 1.0 / 60.0;
 
+/// Δt of a run: weeks of them at sixty in a second.
+const MOST_STEPS: u64 = 100_000_000;
+
 /// Largest file that is read: scenes of 256 MiB and what belongs to them.
 pub const MOST_BYTES: u64 = 512 << 20;
 
@@ -198,6 +201,10 @@ impl RecordingFile {
         }
         if !self.steps.iter().all(|steps| steps.dt.is_finite() && steps.dt > 0.0) {
             return wrong("a Δt in it is not above zero");
+        }
+        let count = self.steps.iter().try_fold(0_u64, |sum, steps| sum.checked_add(steps.count));
+        if count.is_none_or(|count| count > MOST_STEPS) {
+            return wrong("it has more Δt than a run can have taken");
         }
         self.method().map(|_| ())
     }

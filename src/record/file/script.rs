@@ -1,5 +1,7 @@
 //! From a run to its file, and from the file to the commands that make the run again.
 
+use std::iter::Peekable;
+
 use super::keys;
 use super::{Checkpoint, EditsAt, RecordingError, RecordingFile, Steps, WriteRequest, Written};
 use crate::record::command::{Goal, RunCommand};
@@ -46,8 +48,12 @@ fn checkpoints(run: &Run) -> Vec<Checkpoint> {
     let stride = whole.len().div_ceil(MOST_CHECKPOINTS).max(1);
     let state = |(at, _, hash): &(Moment, usize, u64)| Checkpoint { at: *at, hash: format!("{hash:016x}") };
     let mut states: Vec<Checkpoint> = whole.iter().step_by(stride).map(state).collect();
-    if run.at == recording.end && states.last().is_none_or(|last| last.at != run.at) {
-        states.push(Checkpoint { at: run.at, hash: format!("{:016x}", run.simulation.hash()) });
+    // The end too, from wherever the recording is saved.
+    let head = recording.keyframes.head().map(|head| (head.at, head.hash));
+    let end = head.or_else(|| (run.at == recording.end).then(|| (run.at, run.simulation.hash())));
+    let is_new = |at: Moment| at == recording.end && states.last().is_none_or(|last| last.at != at);
+    if let Some((at, hash)) = end.filter(|(at, _)| is_new(*at)) {
+        states.push(Checkpoint { at, hash: format!("{hash:016x}") });
     }
     states
 }
@@ -58,7 +64,8 @@ impl RecordingFile {
         let depends_on_dt = self.method()?.depends_on_dt();
         let steps = if depends_on_dt { self.steps.as_slice() } else { &[] };
         let usual = self.steps.last().map_or(super::USUAL_DT, |steps| steps.dt);
-        let mut way = Way { ticks: ticks(steps), usual, commands: Vec::new() };
+        let ticks: Ticks<'_> = Box::new(ticks(steps));
+        let mut way = Way { ticks: ticks.peekable(), usual, commands: Vec::new() };
         let all = self.edits.iter().flat_map(|edits| edits.edits.iter().cloned());
         let mut edits = keys::with_keys_of(scene, &self.names, all)?.into_iter();
         for group in &self.edits {
@@ -71,31 +78,30 @@ impl RecordingFile {
 }
 
 /// Ends of the Δt with their lengths, by the same products as the run had.
-fn ticks(steps: &[Steps]) -> std::vec::IntoIter<(f64, f64)> {
-    let (mut origin, mut ticks) = (0.0, Vec::new());
-    for Steps { dt, count } in steps {
-        ticks.extend((1..=*count).map(|nth| (origin + nth as f64 * dt, *dt)));
-        origin = ticks.last().map_or(origin, |(time, _)| *time);
-    }
-    ticks.into_iter()
+fn ticks(steps: &[Steps]) -> impl Iterator<Item = (f64, f64)> {
+    let mut origin = 0.0;
+    steps.iter().flat_map(move |&Steps { dt, count }| {
+        let from = origin;
+        origin += count as f64 * dt;
+        (1..=count).map(move |nth| (from + nth as f64 * dt, dt))
+    })
 }
 
+type Ticks<'a> = Box<dyn Iterator<Item = (f64, f64)> + 'a>;
+
 /// Commands on the way through a run.
-struct Way {
-    /// Those not made yet, where the method depends on them.
-    ticks: std::vec::IntoIter<(f64, f64)>,
+struct Way<'a> {
+    /// Those not made yet, where the method depends on them: made one by one, for a small file may claim many.
+    ticks: Peekable<Ticks<'a>>,
     usual: f64,
     commands: Vec<RunCommand>,
 }
 
-impl Way {
+impl Way<'_> {
     /// Adds what leads to a moment.
     fn go_to(&mut self, moment: Moment) {
         let is_before = |time: f64| time < moment.time || (time == moment.time && moment.is_over);
-        while let Some((time, dt)) =
-            self.ticks.as_slice().first().copied().filter(|(time, _)| is_before(*time))
-        {
-            self.ticks.next();
+        while let Some((time, dt)) = self.ticks.next_if(|(time, _)| is_before(*time)) {
             match self.commands.last_mut() {
                 Some(RunCommand::Step { dt: same, count }) if *same == dt && *count < u32::MAX => *count += 1,
                 _ => self.commands.push(RunCommand::Step { dt, count: 1 }),
@@ -104,7 +110,7 @@ impl Way {
                 return;
             }
         }
-        let dt = self.ticks.as_slice().first().map_or(self.usual, |(_, dt)| *dt);
+        let dt = self.ticks.peek().map_or(self.usual, |(_, dt)| *dt);
         match moment {
             Moment { event, time, is_over: false } if event > 0 => {
                 let goal = Goal::Event { number: event, time };
