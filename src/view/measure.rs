@@ -61,8 +61,16 @@ impl Measured {
         let bare = Self { ends, gap: None, centres: ends[0].distance(ends[1]), angle: None };
         match (&a.shape, &b.shape) {
             (Shape::Plane { .. }, Shape::Plane { .. }) => bare.of_plates(&a, &b),
+            // A place may lie within a body.
+            _ if [one, other].iter().any(|thing| matches!(thing, Measurable::Place(_))) => {
+                Some(bare.of_surfaces(&a, &b)).filter(Self::is_apart).unwrap_or(bare)
+            }
             _ => bare.of_surfaces(&a, &b),
         }
+    }
+
+    fn is_apart(&self) -> bool {
+        self.gap.is_some_and(|gap| gap.distance >= 0.0)
     }
 
     fn of_surfaces(self, a: &Body, b: &Body) -> Self {

@@ -30,6 +30,8 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>, shown: &Shown, keys: &[NodeKe
             rows(ui, &measured, closing);
         });
     }
+    ui.add_space(6.0);
+    ui.separator();
 }
 
 fn rows(ui: &mut Ui, measured: &Measured, closing: Option<f64>) {
