@@ -171,6 +171,8 @@ mod sim_seams;
 mod sim_thesis;
 // Contact scenes from seeds: seams, corners, squeezes, slots, pits, heaps, at any size.
 mod sim_variants;
+// The core beside the reference where single balls rub: on faces and in impacts.
+mod study_friction;
 // The reference against closed forms and itself, and where it says that it cannot be trusted.
 mod study_reference;
 // Whole studies: exact comes out exact, wrong laws are found out, horizon, cancelling, files.
