@@ -163,6 +163,8 @@ mod sim_rolling;
 mod sim_spin;
 // Times of impact against bisection, at the rims of plates and spheres.
 mod sim_roots;
+// Stiff friction, from seeds: no fault, no crowd of events, nothing gained.
+mod sim_stiff_slips;
 // Scenes scaled by powers of two in length, time and mass give the scaled bits.
 mod sim_scale;
 // Seams and edges under bodies whose way is integrated: no ghost impacts, no kink inside a step.
