@@ -159,6 +159,8 @@ mod sim_random;
 mod sim_range;
 // Friction beyond a face: fixed balls, grooves, chains, air, a rack.
 mod sim_rolling;
+// Samples that rub: what they are to show, and that nothing is gained.
+mod sim_rough_samples;
 // Friction and spin: single balls on faces, impacts.
 mod sim_spin;
 // Times of impact against bisection, at the rims of plates and spheres.
