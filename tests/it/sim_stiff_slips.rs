@@ -93,7 +93,7 @@ fn hold(support: Support, cases: u64) {
 fn failure(scene: &Scene) -> Option<String> {
     let mut sim = simulation(scene);
     let promise = Promise::of_steps(&sim, scene);
-    let mut monitor = OverlapMonitor::in_id_order(scene);
+    let monitor = OverlapMonitor::in_id_order(scene);
     let total = |sim: &polyscene::sim::Simulation| {
         sim.energy().kinetic + sim.energy().potential.expect("gravity and air alone")
     };
