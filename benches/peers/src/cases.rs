@@ -101,7 +101,13 @@ fn ball_on_slope(angle: f64, speed: f64) -> Scene {
     let ball = Body { bounce: 0.0, roughness, ..Body::new(2, start, motion, Shape::Sphere { radius }) };
     let acceleration = DVec3::new(0.0, -9.81, 0.0);
     let gravity = Force::new(1, ForceKind::GravityPlane { position: middle, acceleration });
-    Scene { map, time_speed: 1.0, params: SimParams::default(), forces: vec![gravity], bodies: vec![slope, ball] }
+    Scene {
+        map,
+        time_speed: 1.0,
+        params: SimParams::default(),
+        forces: vec![gravity],
+        bodies: vec![slope, ball],
+    }
 }
 
 fn gases() -> Vec<Case> {
