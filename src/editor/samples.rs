@@ -51,9 +51,11 @@ pub const SAMPLES: &[Sample] = &[
     sample!("dome", "Dome", "A rough, a smooth and a slippery ball run down a fixed one"),
     sample!("billiards", "Billiards", "Follow, stun and draw on a cloth"),
     sample!("bank-shot", "Bank shots", "Side spin turns a ball at the cushions"),
+    sample!("jump-shot", "Jump shot", "Struck down, a ball jumps over the one in its way"),
     sample!("break-on-cloth", "Break on cloth", "Fifteen balls roll, rub and come to rest"),
     sample!("bowling", "Bowling", "Side spin lets a ball hook on an oiled lane"),
     sample!("superball", "Superball", "Thrown under a table, it comes back"),
+    sample!("bowl", "Bowl", "Balls roll round over the flat faces of a bowl"),
     sample!("cradle", "Newton's cradle", "A row of touching balls, resolved in one instant"),
     sample!("counting-pi", "Counting π", "The number of collisions gives the digits of π"),
     sample!("orbit", "Orbit", "A Kepler ellipse that must not turn"),
@@ -63,6 +65,11 @@ pub const SAMPLES: &[Sample] = &[
     sample!("bin", "Bin", "Thirty balls drop into a bin and come to rest as a heap"),
     sample!("hopper", "Hopper", "Sixty balls run through a slot into a box"),
     sample!("galton", "Galton's board", "Pegs send balls left or right into bins"),
+    sample!(
+        "galton-rough",
+        "Galton's board, rough",
+        "The same with friction: balls turn, and heaps are steeper"
+    ),
     sample!("pyramid-hit", "Pyramid hit", "A ball runs into a pyramid of thirty"),
     sample!("masses", "Mixed masses", "From ten grams to ten tonnes in one heap"),
     sample!("heap-in-space", "Heap in space", "Balls pile up around a sphere that attracts them"),

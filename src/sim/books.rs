@@ -10,7 +10,7 @@ use super::place::Place;
 use super::report::{AngularMomentum, BodyState, Energy, Momentum};
 use super::rub::inertia;
 use super::state::State;
-use super::turn::Rubbing;
+use super::turn::{Hold, Rubbing};
 
 /// Kinetic and potential energy now, J.
 pub(super) fn energies(model: &Model, state: &State, time: f64) -> (f64, Option<f64>) {
@@ -193,16 +193,15 @@ fn dissipated(model: &Model, state: &State, body: u32, time: f64) -> f64 {
         return rubbed;
     }
     let segment = &state.segments[body as usize];
-    if model.plan.spin {
-        // The acceleration of bodies that rub is not of applied forces alone.
-        return rubbed + by_law(model, state, body, time);
-    }
-    if segment.constrained && segment.step == 0.0 {
+    // Where bodies rub their acceleration is not of applied forces alone; in the step of a group contacts act at its ends.
+    let is_held = model.plan.spin && state.turns[body as usize].hold != Hold::Free;
+    if segment.constrained && segment.step == 0.0 && !is_held {
         let tau = time - segment.start;
         let way = tau * (segment.v + (0.5 * tau) * segment.a);
-        return -model.mass(body) * (segment.a - undamped(model, body, segment.start, segment.x)).dot(way);
+        return rubbed
+            - model.mass(body) * (segment.a - undamped(model, body, segment.start, segment.x)).dot(way);
     }
-    by_law(model, state, body, time)
+    rubbed + by_law(model, state, body, time)
 }
 
 /// −∫ F·v dt of the drag forces by their law, J.

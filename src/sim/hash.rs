@@ -18,7 +18,8 @@ pub(super) fn of(model: &Model, state: &State) -> u64 {
         let (x, v) = (state.position(body, state.now), state.velocity(body, state.now));
         x.to_array().into_iter().chain(v.to_array()).for_each(|value| put(value.to_bits()));
         if model.plan.spin {
-            state.spin(body, state.now).to_array().into_iter().for_each(|value| put(value.to_bits()));
+            let (turned, spin) = (state.orientation(body, state.now), state.spin(body, state.now));
+            turned.to_array().into_iter().chain(spin.to_array()).for_each(|value| put(value.to_bits()));
         }
         put(state.contact_state(body, state.now) as u64);
     }

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use super::account::Account;
 use super::body::{BodyId, Origin};
@@ -155,6 +155,11 @@ impl State {
     pub fn spin(&self, body: u32, time: f64) -> DVec3 {
         let turn = self.turns.get(body as usize);
         turn.map_or(DVec3::ZERO, |turn| turn.given.unwrap_or_else(|| turn.spin_at(time)))
+    }
+
+    /// World from body; none is kept where nothing rubs.
+    pub fn orientation(&self, body: u32, time: f64) -> DQuat {
+        self.turns.get(body as usize).map_or(DQuat::IDENTITY, |turn| turn.orientation_at(time))
     }
 
     /// Gives a body the spin with which its next motion begins.

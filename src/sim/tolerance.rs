@@ -152,7 +152,7 @@ pub(super) const ONE_LINE: f64 = 1e-13;
 /// When a slip that turns would end within a time in which friction changes it by this part of the speeds, what is left of
 /// it is taken as straight: velocities at its end are exact all the same, and places are off by its square. Larger loses
 /// digits, smaller takes more steps.
-pub(super) const LAST_OF_SLIP: f64 = 1e-7;
+pub(super) const LAST_OF_SLIP: f64 = 1e-8;
 
 /// Slips that end within this part of the time that is left to the first of them end with it: what is left of them then is
 /// this part of [`LAST_OF_SLIP`], a rounding of the speeds. Smaller, slips that end together do so one after the other;

@@ -18,6 +18,7 @@ const SPANS: &[(&str, f64)] = &[
     ("counting-pi-3", 5.0),
     ("counting-pi-4", 4.045),
     ("galton", 0.5),
+    ("galton-rough", 0.5),
     ("gas-1000", 0.2),
     ("grazing", 1.0),
     ("heap-in-space", 0.3),

@@ -159,10 +159,14 @@ mod sim_random;
 mod sim_range;
 // Friction beyond a face: fixed balls, grooves, chains, air, a rack.
 mod sim_rolling;
+// Samples that rub: what they are to show, and that nothing is gained.
+mod sim_rough_samples;
 // Friction and spin: single balls on faces, impacts.
 mod sim_spin;
 // Times of impact against bisection, at the rims of plates and spheres.
 mod sim_roots;
+// Stiff friction, from seeds: no fault, no crowd of events, nothing gained.
+mod sim_stiff_slips;
 // Scenes scaled by powers of two in length, time and mass give the scaled bits.
 mod sim_scale;
 // Seams and edges under bodies whose way is integrated: no ghost impacts, no kink inside a step.
@@ -171,6 +175,8 @@ mod sim_seams;
 mod sim_thesis;
 // Contact scenes from seeds: seams, corners, squeezes, slots, pits, heaps, at any size.
 mod sim_variants;
+// The core beside the reference where single balls rub: on faces and in impacts.
+mod study_friction;
 // The reference against closed forms and itself, and where it says that it cannot be trusted.
 mod study_reference;
 // Whole studies: exact comes out exact, wrong laws are found out, horizon, cancelling, files.

@@ -5,7 +5,7 @@ use polyscene::scene::Scene;
 use polyscene::sim::Progress;
 use polyscene::study::Random;
 
-use crate::common::build::{Build, thesis};
+use crate::common::build::{Build, Shaped, ball, empty, thesis};
 use crate::common::drive::{
     Run, SAMPLINGS, Sampling, advance, assert_same_bits, finished, run, simulation, states,
 };
@@ -209,6 +209,21 @@ fn hash_tells_states_apart() {
     hashes.dedup();
     assert_eq!(hashes.len(), 22, "equal hashes of different states");
     assert_eq!(simulation(&scene).hash(), simulation(&scene).hash());
+}
+
+/// Symptom: two states that differ in how balls are turned had one hash. Expected: it tells apart what a scene that rubs
+/// shows, and only that. Cause: it had spins, but no orientations.
+#[test]
+fn hash_tells_orientations_apart_where_bodies_turn() {
+    let hash = |friction: f64, angle: f64| {
+        let one = ball(1, DVec3::splat(5.0), DVec3::X).friction(friction);
+        let other = ball(2, DVec3::splat(2.0), DVec3::ZERO).friction(friction);
+        let mut scene = empty().body(one).body(other);
+        scene.bodies[0].rotation = DVec3::Y * angle;
+        run(&scene, 0.5, Sampling::Events).hash
+    };
+    assert_ne!(hash(0.5, 0.0), hash(0.5, 0.1));
+    assert_eq!(hash(0.0, 0.0), hash(0.0, 0.1), "what does not rub has no orientation");
 }
 
 #[test]

@@ -3,7 +3,8 @@
 use std::ops::Range;
 use std::path::Path;
 
-use polyscene::scene::{Document, Scene};
+use glam::DVec3;
+use polyscene::scene::{Body, Document, Force, ForceKind, Map, Motion, Roughness, Scene, Shape, SimParams};
 
 use crate::engines::Engine;
 use crate::peer::{Precision, RATES, SETTINGS, Walls};
@@ -44,6 +45,7 @@ const PATIENCE: f64 = 60.0;
 
 pub fn all() -> Result<Vec<Case>, String> {
     let mut cases = files()?;
+    cases.extend(rolling());
     cases.extend(gases());
     cases.extend(piles());
     Ok(cases)
@@ -61,6 +63,51 @@ fn files() -> Result<Vec<Case>, String> {
         cases.push(Case { name, scene, until, reference, promised, peers, repeats: 7, patience: PATIENCE });
     }
     Ok(cases)
+}
+
+/// A ball of 10 cm that slides at first and then rolls, or rolls from the start: on the level and on a slope of 20°.
+fn rolling() -> Vec<Case> {
+    let rows = [
+        ("friction, level, 1 m/s", 0.0, 1.0),
+        ("friction, incline, 1 m/s", 20.0, 1.0),
+        ("friction, incline, from rest", 20.0, 0.0),
+    ];
+    let case = |(name, degrees, speed): (&'static str, f64, f64)| {
+        let scene = ball_on_slope(degrees.to_radians(), speed);
+        let peers = boxes(&RATES, 0..SETTINGS.len());
+        let reference = Reference::Roll;
+        Case { name, scene, until: 3.0, reference, promised: None, peers, repeats: 3, patience: PATIENCE }
+    };
+    rows.into_iter().map(case).collect()
+}
+
+/// Downhill is along x; the friction of the pair is 0.3.
+fn ball_on_slope(angle: f64, speed: f64) -> Scene {
+    let (half, radius) = (30.0, 0.1);
+    let map = Map { size: DVec3::new(2.0 * half, half, half), tiles: [6, 3, 3] };
+    let (sin, cos) = libm::sincos(angle);
+    let (normal, downhill) = (DVec3::new(sin, cos, 0.0), DVec3::new(cos, -sin, 0.0));
+    let middle = 0.5 * map.size;
+    let roughness = Roughness { friction: 0.3, ..Roughness::default() };
+    let plate = Shape::Plane { half_x: 0.9 * half, half_y: 0.4 * half };
+    let slope = Body {
+        rotation: DVec3::new(-std::f64::consts::FRAC_PI_2, angle, 0.0),
+        bounce: 0.0,
+        roughness,
+        ..Body::new(1, middle, Motion::Static, plate)
+    };
+    let motion = Motion::Dynamic { mass: 1.0, velocity: speed * downhill };
+    let start = middle - 8.0 * downhill + radius * normal;
+    let ball = Body { bounce: 0.0, roughness, ..Body::new(2, start, motion, Shape::Sphere { radius }) };
+    let acceleration = DVec3::new(0.0, -9.81, 0.0);
+    let gravity = Force::new(1, ForceKind::GravityPlane { position: middle, acceleration });
+    Scene {
+        map,
+        time_speed: 1.0,
+        params: SimParams::default(),
+        forces: vec![gravity],
+        bodies: vec![slope, ball],
+    }
 }
 
 fn gases() -> Vec<Case> {

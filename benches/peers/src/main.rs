@@ -62,7 +62,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn write_scene(case: &Case, folder: &Path) -> Result<(), Box<dyn Error>> {
-    let path = folder.join(format!("{}.xml", case.name.replace([' ', ','], "-")));
+    let path = folder.join(format!("{}.xml", case.name.replace([' ', ',', '/'], "-")));
     Document::of_scene(&case.scene, NumberStyle::Point)?.save(&path)?;
     println!("{}", path.display());
     Ok(())

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use glam::DVec3;
-use polyscene::scene::{Body, ForceKind, Motion, Scene, Shape};
+use polyscene::scene::{Body, ForceKind, Motion, Scene, Shape, rotation_matrix};
 
 use crate::engines::Ball;
 
@@ -19,6 +19,8 @@ pub enum Reference {
     Kepler,
     /// Two balls on a line along z and a wall (Galperin 2003).
     Pi,
+    /// A ball without spin on a plate that falls along x: it slides until |s₀|/(7/2 μ a_n − a_t), then rolls with 5/7 a_t.
+    Roll,
     /// Chaotic, and loses nothing: none.
     None,
     /// Balls that come to rest: no closed form, but they must not overlap or gain energy.
@@ -35,6 +37,7 @@ impl Reference {
             Self::Row => Some(row(scene, &balls, t)),
             Self::Kepler => Some(vec![kepler(scene, balls[0], t)]),
             Self::Pi => Some(pi(&balls, t).0),
+            Self::Roll => Some(vec![roll(scene, balls[0], t)]),
             Self::None | Self::Pile => None,
         }
     }
@@ -80,6 +83,23 @@ fn throw(ball: &Body, gravity: DVec3, t: f64) -> Ball {
 }
 
 /// Dropped from rest: flights of equal length, a half one first.
+fn roll(scene: &Scene, ball: &Body, t: f64) -> Ball {
+    let (_, velocity) = mass_and_velocity(ball);
+    let plates = scene.bodies.iter().filter(|body| !body.is_dynamic());
+    let normal = plates.map(|body| rotation_matrix(body.rotation).z_axis).sum::<DVec3>();
+    let (pull, friction) = (gravity(scene), ball.roughness.friction);
+    let load = -pull.dot(normal);
+    let along = pull + load * normal;
+    let direction = velocity.normalize_or_zero();
+    let ends = velocity.length() / (3.5 * friction * load - along.dot(direction));
+    let sliding = along - friction * load * direction;
+    let (slid, rolled) = (t.min(ends), (t - ends).max(0.0));
+    let rolling = along * (5.0 / 7.0);
+    let then = velocity + slid * sliding;
+    let way = slid * (velocity + 0.5 * slid * sliding) + rolled * (then + 0.5 * rolled * rolling);
+    Ball { position: ball.position + way, velocity: then + rolled * rolling }
+}
+
 fn bounce(scene: &Scene, ball: &Body, t: f64) -> Ball {
     let floor = scene.bodies.iter().find(|body| !body.is_dynamic()).map_or(0.0, |body| body.position.y);
     let (g, lowest) = (-gravity(scene).y, floor + radius(ball));

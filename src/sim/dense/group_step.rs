@@ -22,7 +22,7 @@ use crate::sim::books::book_kick;
 use crate::sim::capture::{hold, is_swallowed};
 use crate::sim::event::EventKind;
 use crate::sim::fault::{Fault, fault};
-use crate::sim::geometry::{ball, contact_distance, gap_of, target};
+use crate::sim::geometry::{ball, contact_distance, gap_of, rubbing_of, target};
 use crate::sim::model::Model;
 use crate::sim::motion::{check, place};
 use crate::sim::neighbours::{predict_all, predict_pair, reach_of};
@@ -373,7 +373,7 @@ fn carry_out(
     note_forces(dense, component, h);
     book_outside(state, work);
     if !work.rubbing.spins.is_empty() {
-        note_friction(dense, component, h);
+        note_friction(model, dense, component, h);
         book_friction(state, work);
         for (body, spin) in work.bodies.iter().zip(&work.rubbing.spins) {
             state.give_spin(body.body, *spin);
@@ -409,8 +409,9 @@ fn note_forces(dense: &mut Dense, component: &Component, h: f64) {
     }
 }
 
-/// Keeps the friction for the next step. Whoever lies on two bodies that do not move stays, however it moves.
-fn note_friction(dense: &mut Dense, component: &Component, h: f64) {
+/// Keeps the friction for the next step. Whoever lies on two bodies that do not move stays, however it moves, and so does who
+/// rolls on one where that can't be followed from event to event: it would be back at once.
+fn note_friction(model: &Model, dense: &mut Dense, component: &Component, h: f64) {
     let Component { slots, near, work, .. } = component;
     for near in near {
         dense.rubs[near.listed as usize] = DVec3::ZERO;
@@ -420,11 +421,19 @@ fn note_friction(dense: &mut Dense, component: &Component, h: f64) {
     }
     let mut supports = vec![0_u32; slots.len()];
     for contact in work.contacts.iter().filter(|contact| contact.impulse > 0.0 && contact.b == FIXED) {
-        supports[contact.a as usize] += 1;
+        let is_followed = is_followed(model, dense.pairs[contact.listed as usize].pair);
+        supports[contact.a as usize] += if is_followed { 1 } else { 2 };
     }
     for (slot, _) in slots.iter().zip(supports).filter(|(_, supports)| *supports > 1) {
         dense.members[*slot as usize].idle = 0;
     }
+}
+
+/// Whether what one ball does on a body that does not move is known from event to event: rolling friction is on a face alone,
+/// where nothing but uniform forces acts.
+fn is_followed(model: &Model, pair: Pair) -> bool {
+    let is_face = model.body(pair.b).shape.radius() == 0.0;
+    rubbing_of(model, pair).rolling == 0.0 || (is_face && model.is_ballistic())
 }
 
 /// Books the friction that what does not move gave, and the angular momentum of all that it gave.

@@ -5,8 +5,8 @@
 //!
 //! ṡ = a_t − B ŝ,  B = μ a_n (1 + 1/k),  v̇ = (k ṡ + a_t)/(1 + k),  ω̇ = n×(a_t − ṡ)/((1 + k) R).
 //!
-//! Rolling, v̇ = a_t/(1 + k) − μ_R a_n v̂ and ω̇ = n×v̇/R, as long as |v̇ − a_t| ≤ μ a_n. Both are a vector w with
-//! ẇ = c − B ŵ: [`super::straight`] knows how that goes on.
+//! Rolling, v̇ = a_t/(1 + k) − ρ v̂ and ω̇ = n×v̇/R with ρ = min(μ_R a_n, μ a_n − k|a_t|/(1 + k)), if that is not negative. Both
+//! are a vector w with ẇ = c − B ŵ: [`super::straight`] knows how that goes on.
 
 use glam::DVec3;
 
@@ -81,16 +81,12 @@ pub(in crate::sim) fn go_on_face(
     }
 }
 
-/// What drives a ball that rolls, and what resists it, m/s²; `None` if friction can't make it roll.
+/// What drives a ball that rolls, and what resists it, m/s²; `None` if friction can't make it roll. Rolling takes k a_t/(1 + k)
+/// of friction, and rolling friction no more than that leaves: else it would block the ball.
 fn rolling(on: &OnFace) -> Option<(DVec3, f64)> {
     let drive = on.along / (1.0 + INERTIA);
-    let resistance = on.law.rolling * on.load;
-    let acceleration = match course(on.v, drive, resistance) {
-        Course::Still => DVec3::ZERO,
-        Course::Straight { rate, .. } | Course::Turns { rate, .. } => rate,
-    };
-    let taken = (acceleration - on.along).length();
-    (taken <= on.law.friction * on.load).then_some((drive, resistance))
+    let left = on.law.friction * on.load - (on.along - drive).length();
+    (left >= 0.0).then_some((drive, left.min(on.law.rolling * on.load)))
 }
 
 fn roll(
@@ -128,7 +124,9 @@ fn follow(
     evaluations: &mut u64,
 ) -> Result<Going, SegmentError> {
     let due = if what == What::Slip { Due::NoSlip } else { Due::Stop };
-    let speed = on.v.length() + w.length();
+    // A velocity that ends is itself all the speed there is: beside that of a fall by a radius it is the rest of one.
+    let radius = model.radius(on.body);
+    let speed = (on.v.length() + w.length()).max((on.load * radius).sqrt());
     let straight = |rate: DVec3, stop: f64| {
         let turn = Turn { due: if stop.is_finite() { due } else { Due::Nothing }, ..on.turn() };
         on.going(model, what, rate, None, on.time + stop, turn)
@@ -147,7 +145,7 @@ fn follow(
                 reads_position: false,
                 step: on.hint,
                 previous: None,
-                radius: model.radius(on.body),
+                radius,
                 drag: 0.0,
                 limits: bounds,
             };

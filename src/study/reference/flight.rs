@@ -1,6 +1,8 @@
-//! Motion between impacts: Gragg's modified midpoint rule, extrapolated until the digits stop changing.
+//! Motion between impacts, in free flight.
 
-use crate::scene::{Force, ForceKind};
+use super::extrapolation::extrapolated;
+use super::face::OnFace;
+use crate::scene::{Force, ForceKind, Roughness};
 use glam::DVec3;
 
 /// One moving sphere. Position and velocity carry the rounding of their own sums along.
@@ -19,6 +21,11 @@ pub struct Ball {
     /// kg.
     pub mass: f64,
     pub bounce: f64,
+    pub roughness: Roughness,
+    /// rad/s.
+    pub spin: DVec3,
+    /// The face that it lies on and rubs on.
+    pub on: Option<OnFace>,
 }
 
 /// A compensated sum: `value` plus a `rest` too small for it.
@@ -39,7 +46,7 @@ impl Sum {
         (self.value - other.value) + (self.rest - other.rest)
     }
 
-    fn plus(self, change: DVec3) -> Self {
+    pub(super) fn plus(self, change: DVec3) -> Self {
         let small = change + self.rest;
         let value = self.value + small;
         // Knuth's exact error of a sum.
@@ -49,14 +56,17 @@ impl Sum {
     }
 }
 
-/// Rows of the extrapolation table before a step is halved.
-const ROWS: usize = 9;
+/// Moment of inertia of a solid sphere over m R².
+pub(super) const INERTIA: f64 = 0.4;
 /// Halvings before the result is taken as it is.
 const DEPTH: u32 = 40;
 
 impl Ball {
     /// The ball `duration` later, if it meets nothing; `tolerance` as in the settings.
     pub(super) fn flown(&self, forces: &[Force], duration: f64, tolerance: f64) -> Self {
+        if let Some(on) = self.on {
+            return self.gone_on(on, forces, duration, tolerance);
+        }
         self.flown_at_depth(forces, duration, tolerance, 0)
     }
 
@@ -69,7 +79,7 @@ impl Ball {
         half.flown_at_depth(forces, duration / 2.0, tolerance, depth + 1)
     }
 
-    /// Changes of position and velocity in one step, extrapolated to substeps of no length.
+    /// Changes of position and velocity in one step.
     fn extrapolated(
         &self,
         forces: &[Force],
@@ -77,24 +87,11 @@ impl Ball {
         tolerance: f64,
         at_any_rate: bool,
     ) -> Option<[DVec3; 2]> {
-        let mut row = [[DVec3::ZERO; 2]; ROWS];
-        for j in 0..ROWS {
-            let substeps = 2 * (j + 1);
-            let mut next = [[DVec3::ZERO; 2]; ROWS];
-            next[0] = self.midpoint(forces, duration, substeps);
-            for k in 1..=j {
-                // T(j,k) = T(j,k-1) + (T(j,k-1) − T(j−1,k-1)) / ((n_j/n_(j−k))² − 1)
-                let ratio = substeps as f64 / (2 * (j - k + 1)) as f64;
-                let (new, old) = (next[k - 1], row[k - 1]);
-                next[k] = [0, 1].map(|i| new[i] + (new[i] - old[i]) / (ratio * ratio - 1.0));
-            }
-            if j > 0 && self.converged(next[j], next[j - 1], duration, tolerance) {
-                return Some(next[j]);
-            }
-            row = next;
-        }
-        // A number that is no longer finite converges nowhere.
-        (at_any_rate || !row[ROWS - 1][1].is_finite()).then_some(row[ROWS - 1])
+        let rate = |[dx, dv]: [DVec3; 2]| {
+            [self.velocity.value + (self.velocity.rest + dv), self.acceleration(forces, dx, dv)]
+        };
+        let converged = |new, old| self.converged(new, old, duration, tolerance);
+        extrapolated(duration, at_any_rate, rate, converged)
     }
 
     fn converged(&self, new: [DVec3; 2], old: [DVec3; 2], duration: f64, tolerance: f64) -> bool {
@@ -103,24 +100,8 @@ impl Ball {
         (0..2).all(|i| (new[i] - old[i]).length() <= tolerance * small[i])
     }
 
-    fn midpoint(&self, forces: &[Force], duration: f64, substeps: usize) -> [DVec3; 2] {
-        let h = duration / substeps as f64;
-        let rate = |[dx, dv]: [DVec3; 2]| {
-            [self.velocity.value + (self.velocity.rest + dv), self.acceleration(forces, dx, dv)]
-        };
-        let step =
-            |from: [DVec3; 2], rate: [DVec3; 2], h: f64| [from[0] + rate[0] * h, from[1] + rate[1] * h];
-        let mut before = [DVec3::ZERO; 2];
-        let mut now = step(before, rate(before), h);
-        for _ in 1..substeps {
-            (before, now) = (now, step(before, rate(now), 2.0 * h));
-        }
-        let last = step(before, rate(now), h);
-        [0, 1].map(|i| (now[i] + last[i]) / 2.0)
-    }
-
     /// Acceleration at an offset from the ball's present position and velocity.
-    fn acceleration(&self, forces: &[Force], dx: DVec3, dv: DVec3) -> DVec3 {
+    pub(super) fn acceleration(&self, forces: &[Force], dx: DVec3, dv: DVec3) -> DVec3 {
         let mut sum = DVec3::ZERO;
         for force in forces {
             sum += match force.kind {
@@ -149,6 +130,14 @@ impl Ball {
         self.velocity = self.velocity.plus(impulse / self.mass);
     }
 
+    /// Takes an impulse across a normal, N·s, at the point of its surface in this direction.
+    pub(super) fn rub(&mut self, to: DVec3, impulse: DVec3) {
+        if impulse != DVec3::ZERO {
+            self.push(impulse);
+            self.spin += to.cross(impulse) / (INERTIA * self.mass * self.radius);
+        }
+    }
+
     /// Kinetic and potential energy, J; the potential of a uniform field is 0 at the origin.
     pub fn energy(&self, forces: &[Force]) -> f64 {
         let (x, v) = (self.position.value, self.velocity.value);
@@ -157,6 +146,7 @@ impl Ball {
             ForceKind::GravityPoint { position, intensity } => -intensity / (position - x).length(),
             ForceKind::Drag { .. } => 0.0,
         };
-        self.mass * (v.length_squared() / 2.0 + forces.iter().map(potential).sum::<f64>())
+        let turning = INERTIA * self.radius * self.radius * self.spin.length_squared();
+        self.mass * ((v.length_squared() + turning) / 2.0 + forces.iter().map(potential).sum::<f64>())
     }
 }

@@ -54,6 +54,14 @@ impl Surface {
         }
     }
 
+    /// The normal of a plate on the side of a point, where the foot of that lies between its edges.
+    pub(super) fn face_under(&self, point: DVec3) -> Option<DVec3> {
+        let Self::Plate { centre, world_from_local, half_x, half_y } = *self else { return None };
+        let local = world_from_local.transpose() * (point - centre);
+        let is_over = local.x.abs() < half_x && local.y.abs() < half_y;
+        is_over.then(|| world_from_local.z_axis * local.z.signum())
+    }
+
     /// How far a sphere reaches through a plate's infinite plane, seen from the side its normal points to;
     /// negative when it is clear of it.
     pub fn depth_behind(&self, point: DVec3, radius: f64) -> Option<f64> {

@@ -31,6 +31,9 @@ pub enum End {
     /// Bounces are about to end in rest or in a slide along the surface.
     #[error("two bodies stay in contact")]
     LastingContact,
+    /// A ball that lies on a face leaves it, begins to slip anew or meets another body.
+    #[error("a ball that lies on a face ceases to do so alone, or begins to slip")]
+    ChangedContact,
     /// A force or a speed became infinite.
     #[error("a number is no longer finite")]
     NotFinite,

@@ -1,9 +1,11 @@
 //! The naive simulator: small steps, every pair in every step, bisection where surfaces cross.
 
+use super::face::Hold;
 use super::flight::{Ball, Sum};
 use super::geometry::{Surface, SurfaceGap, dynamic_radius, gap_along};
+use super::rubbing::{against, mean};
 use super::{End, ReferenceSettings, Unsupported};
-use crate::scene::{Body, Force, Motion, Scene};
+use crate::scene::{Body, Force, Motion, Roughness, Scene};
 use glam::DVec3;
 
 /// One impact, as the core's ledger would report it: `a` has the smaller UserID.
@@ -22,6 +24,16 @@ pub struct Impact {
     pub normal: DVec3,
     /// N·s.
     pub impulse: f64,
+}
+
+/// A ball on a face that ceased to slip, or came to rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Change {
+    /// s.
+    pub time: f64,
+    /// UserID.
+    pub ball: i64,
+    pub hold: Hold,
 }
 
 /// What one step of the reference led to.
@@ -45,6 +57,7 @@ pub struct Reference {
     statics: Vec<Fixture>,
     forces: Vec<Force>,
     settings: ReferenceSettings,
+    changes: Vec<Change>,
     end: Option<End>,
 }
 
@@ -53,6 +66,7 @@ struct Fixture {
     id: i64,
     body: usize,
     bounce: f64,
+    roughness: Roughness,
     surface: Surface,
 }
 
@@ -74,6 +88,8 @@ const SAME_INSTANT: f64 = 1e-13;
 /// A closing speed below this part of the two speeds that it is the difference of is their rounding: the pair
 /// touches in passing. Each of the three products of v·n is rounded, and so is n itself.
 const SPEED_ROUNDING: f64 = 8.0 * f64::EPSILON;
+/// A ball that is no further from a surface than this part of its coordinates touches it.
+const TOUCH: f64 = 8.0 * f64::EPSILON;
 /// Lasting contact: the bounces that are left take less than this together, s, ...
 const ALL_BOUNCES: f64 = 1e-4;
 /// ... or one of them less than this.
@@ -93,20 +109,59 @@ impl Reference {
                     radius,
                     mass,
                     bounce: body.bounce,
+                    roughness: body.roughness,
+                    spin: body.spin,
+                    on: None,
                 }),
-                (Motion::Static, _, Some(surface)) => {
-                    statics.push(Fixture { id: body.id, body: index, bounce: body.bounce, surface });
-                }
+                (Motion::Static, _, Some(surface)) => statics.push(Fixture {
+                    id: body.id,
+                    body: index,
+                    bounce: body.bounce,
+                    roughness: body.roughness,
+                    surface,
+                }),
                 _ => return Err(unsupported(body)),
             }
         }
         let forces = scene.forces.clone();
-        Ok(Self { time: 0.0, time_rest: 0.0, balls, statics, forces, settings, end: None })
+        let (changes, end) = (Vec::new(), None);
+        let mut all = Self { time: 0.0, time_rest: 0.0, balls, statics, forces, settings, changes, end };
+        (0..all.balls.len()).for_each(|ball| all.lay_if_touching(ball));
+        Ok(all)
+    }
+
+    /// Lays a ball on the one thing that it touches without closing or parting, if that is a face.
+    fn lay_if_touching(&mut self, i: usize) {
+        let ball = self.balls[i];
+        let size = ball.position.value.abs().max_element() + ball.radius;
+        let touches = |pair: Pair| self.gap(pair, &self.balls).0.distance <= TOUCH * size;
+        let with_balls = (0..self.balls.len()).any(|j| j != i && touches(Pair::Balls(i, j)));
+        let mut touched = (0..self.statics.len()).filter(|j| touches(Pair::Static(i, *j)));
+        if let (Some(j), None, false) = (touched.next(), touched.next(), with_balls) {
+            let rate = self.gap(Pair::Static(i, j), &self.balls).1;
+            if rate.abs() <= SPEED_ROUNDING * ball.velocity.value.length() {
+                self.lay(i, j);
+            }
+        }
+    }
+
+    /// Lays a ball on a static body, if it touches that in a face that rubs.
+    fn lay(&mut self, i: usize, j: usize) {
+        let (ball, fixture) = (&mut self.balls[i], &self.statics[j]);
+        if let Some(normal) = fixture.surface.face_under(ball.position.value) {
+            let law = mean(ball.roughness, fixture.roughness);
+            ball.lay_on(j, normal, law, &self.forces);
+        }
     }
 
     /// Model time, s.
     pub fn time(&self) -> f64 {
         self.time
+    }
+
+    /// What balls on faces have come to, in the order of time.
+    pub fn changes(&self) -> &[Change] {
+        &self.changes
     }
 
     /// Dynamic bodies, in the order of the file.
@@ -160,10 +215,21 @@ impl Reference {
         }
         let Some((after, pair)) = self.first_hit(duration, &looks) else {
             self.go(duration);
-            return Ok(Step::Flew);
+            return self.end.map_or(Ok(Step::Flew), Err);
         };
         if after > 0.0 {
             self.go(after);
+        }
+        let is_lying = |i: usize| self.balls[i].on.is_some();
+        let more_than_two = match pair {
+            Pair::Balls(i, j) => is_lying(i) || is_lying(j),
+            Pair::Static(i, _) => is_lying(i),
+        };
+        if more_than_two {
+            self.end = Some(End::ChangedContact);
+        }
+        if let Some(end) = self.end {
+            return Err(end);
         }
         Ok(Step::Impact(self.respond(pair)))
     }
@@ -184,6 +250,15 @@ impl Reference {
 
     fn go(&mut self, duration: f64) {
         self.balls = self.flown(duration);
+        for ball in &self.balls {
+            let Some(on) = ball.on else { continue };
+            for (after, hold) in on.began.into_iter().zip([Hold::Rolls, Hold::Rests]) {
+                let time = after.map(|after| self.time + (after + self.time_rest));
+                self.changes.extend(time.map(|time| Change { time, ball: ball.id, hold }));
+            }
+            let leaves = self.statics[on.fixture].surface.face_under(ball.position.value).is_none();
+            self.end = on.end.or(self.end).or(leaves.then_some(End::ChangedContact));
+        }
         let small = duration + self.time_rest;
         let time = self.time + small;
         self.time_rest = small - (time - self.time);
@@ -231,6 +306,11 @@ impl Reference {
 
     /// When, counted from the start of a step, a pair first touches while closing.
     fn first_contact(&self, pair: Pair, duration: f64, looks: &[Vec<Ball>]) -> Option<f64> {
+        if let Pair::Static(i, j) = pair
+            && self.balls[i].on.is_some_and(|on| on.fixture == j)
+        {
+            return None;
+        }
         let at = |k: usize| duration * k as f64 / LOOKS as f64;
         let mut before = self.gap(pair, &looks[0]);
         if before.0.distance > 4.0 * self.reach(pair) {
@@ -340,15 +420,40 @@ impl Reference {
             self.end = Some(End::LastingContact);
         }
         let impulse = (1.0 + bounce) * -rate / inverse_mass;
+        let rubbing = self.rubbing(pair, gap.towards, impulse, inverse_mass);
         let first = &mut self.balls[i];
         first.push(gap.towards * -impulse);
+        first.rub(gap.towards, -rubbing);
         let (own, point) = ((first.id, first.body), first.position.value + gap.towards * first.radius);
-        if let Pair::Balls(_, j) = pair {
-            self.balls[j].push(gap.towards * impulse);
+        match pair {
+            Pair::Balls(_, j) => {
+                self.balls[j].push(gap.towards * impulse);
+                self.balls[j].rub(-gap.towards, rubbing);
+            }
+            Pair::Static(_, j) if self.end.is_some() && bounce == 0.0 => {
+                self.lay(i, j);
+                self.end = self.end.filter(|_| self.balls[i].on.is_none());
+            }
+            Pair::Static(..) => {}
         }
         let ((a, b), normal) =
             if own <= other { ((own, other), gap.towards) } else { ((other, own), -gap.towards) };
         Impact { time: self.time, a: a.0, b: b.0, bodies: [a.1, b.1], point, normal, impulse }
+    }
+
+    /// The impulse of friction on the second body, N·s.
+    fn rubbing(&self, pair: Pair, towards: DVec3, pressing: f64, inverse_mass: f64) -> DVec3 {
+        let surface = |ball: &Ball, to: DVec3| ball.velocity.value + ball.spin.cross(ball.radius * to);
+        let (first, roughness, other) = match pair {
+            Pair::Balls(i, j) => {
+                let other = &self.balls[j];
+                (&self.balls[i], other.roughness, surface(other, -towards))
+            }
+            Pair::Static(i, j) => (&self.balls[i], self.statics[j].roughness, DVec3::ZERO),
+        };
+        let apart = other - surface(first, towards);
+        let slip = apart - apart.dot(towards) * towards;
+        against(slip, pressing, mean(first.roughness, roughness), inverse_mass)
     }
 
     /// Whether a pair that parts at `speed` falls back so soon that its bounces end before they matter:

@@ -110,12 +110,14 @@ impl World for Peer {
 fn rigid_body(body: &Body) -> RigidBodyBuilder {
     let builder = match body.motion {
         Motion::Static => RigidBodyBuilder::fixed(),
-        Motion::Dynamic { velocity, .. } => RigidBodyBuilder::dynamic().linvel(narrow(velocity)),
+        Motion::Dynamic { velocity, .. } => {
+            RigidBodyBuilder::dynamic().linvel(narrow(velocity)).angvel(narrow(body.spin))
+        }
     };
     builder.translation(narrow(body.position))
 }
 
-/// No friction, Bounce values multiplied, mass as given. No ball in these scenes goes past a plate's edge, so that a
+/// The geometric mean of both frictions, Bounce values multiplied, mass as given. No ball in these scenes goes past a plate's edge, so that a
 /// half-space will do for a plate too.
 fn collider(body: &Body, inside: DVec3, walls: Walls) -> ColliderBuilder {
     let builder = match (&body.shape, walls) {
@@ -128,7 +130,8 @@ fn collider(body: &Body, inside: DVec3, walls: Walls) -> ColliderBuilder {
         Motion::Static => builder,
     };
     builder
-        .friction(0.0)
+        .friction(body.roughness.friction as Real)
+        .friction_combine_rule(CoefficientCombineRule::GeometricMean)
         .restitution(body.bounce as Real)
         .restitution_combine_rule(CoefficientCombineRule::Multiply)
 }
