@@ -50,17 +50,25 @@ pub fn touching<'n>(
     candidates.min_by(|(a, _), (b, _)| a.distance(place).total_cmp(&b.distance(place)))
 }
 
-/// What of a body comes level with what of others, relative to its centre, m: the centre, and a plate's corners and so
-/// its edges.
+/// What of a body comes level with what of others, relative to its centre, m: the centre, and the corners and so the edges of
+/// a plate whose sides lie along the world's axes. Corners of others are level with nothing that a person would see.
 pub fn features(body: &Body) -> Vec<DVec3> {
     let mut features = vec![DVec3::ZERO];
     if let Shape::Plane { half_x, half_y } = body.shape {
         let turn = rotation_matrix(body.rotation);
+        if ![turn.x_axis, turn.y_axis].into_iter().all(is_along_an_axis) {
+            return features;
+        }
         for (x, y) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
             features.push(turn * DVec3::new(x * half_x, y * half_y, 0.0));
         }
     }
     features
+}
+
+/// But for what Euler angles leave by rounding.
+fn is_along_an_axis(unit: DVec3) -> bool {
+    unit.abs().max_element() > 1.0 - 1e-12
 }
 
 /// Two features that are level along an axis but for `off`.
