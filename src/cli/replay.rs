@@ -81,7 +81,7 @@ fn say_compared(name: &str, compared: Compared, build: &str) {
 }
 
 /// Why the run did not come to its end, or is another one.
-fn stopped(name: &str, error: RerunError) -> CliError {
+pub(super) fn stopped(name: &str, error: RerunError) -> CliError {
     match error {
         RerunError::Exceeded { time, why } => CliError::Unwritten { time, why },
         RerunError::Parted { time, message } => {
@@ -93,7 +93,7 @@ fn stopped(name: &str, error: RerunError) -> CliError {
     }
 }
 
-fn read(path: &Path) -> Result<Vec<u8>, CliError> {
+pub(super) fn read(path: &Path) -> Result<Vec<u8>, CliError> {
     let mut bytes = Vec::new();
     let unreadable = |error: std::io::Error| {
         CliError::Usage(format!("cannot read {}: {error}", input::display_name(path)))

@@ -8,7 +8,7 @@ const BODY_SIZE: usize = 1024;
 /// Segments to simulate again at most between two keyframes, for a scene of few bodies.
 const SEGMENTS_APART: u64 = 500;
 /// And for each body of a larger one: a copy of it takes about as long as a segment, so that copies cost some per cent.
-const SEGMENTS_PER_BODY: u64 = 20;
+const SEGMENTS_PER_BODY: u64 = 30;
 
 #[derive(Debug)]
 pub(super) struct Keyframe {

@@ -1,10 +1,10 @@
 //! The ledger of a whole run: every event with the names a person knows. Copies share their rows, so that a million of them
 //! go into a frame at the price of a few.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use crate::scene::NodeKey;
-use crate::sim::{Event, EventKind, Simulation};
+use crate::sim::{BodyRef, Event, EventKind, Simulation};
 
 /// One ledger row with the names a person knows.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,14 +18,11 @@ pub struct EventRow {
 }
 
 impl EventRow {
-    pub(super) fn new(simulation: &Simulation, event: &Event) -> Self {
-        Self {
-            event: *event,
-            a_key: simulation.key(event.a),
-            b_key: event.b.map(|b| simulation.key(b)),
-            a_label: simulation.shared_label(event.a),
-            b_label: event.b.map_or_else(Arc::default, |b| simulation.shared_label(b)),
-        }
+    fn new(names: &Names, event: &Event) -> Self {
+        let (a_key, a_label) = names.get(event.a);
+        let b = event.b.map(|b| names.get(b));
+        let b_key = b.as_ref().map(|(key, _)| *key);
+        Self { event: *event, a_key, b_key, a_label, b_label: b.map(|(_, label)| label).unwrap_or_default() }
     }
 
     /// Energy that the impact left the bodies with, less what they came with, J, ≤ 0 but for rounding: of an impulse J
@@ -41,26 +38,101 @@ impl EventRow {
     }
 }
 
+/// Keys and labels of all bodies, by their numbers.
+#[derive(Debug, Default)]
+pub(super) struct Names {
+    dynamic: Vec<(NodeKey, Arc<str>)>,
+    statics: Vec<(NodeKey, Arc<str>)>,
+}
+
+impl Names {
+    pub(super) fn of(simulation: &Simulation) -> Self {
+        let name = |body| (simulation.key(body), simulation.shared_label(body));
+        let (dynamic, statics) = simulation.body_numbers();
+        Self {
+            dynamic: dynamic.map(BodyRef::Dynamic).map(name).collect(),
+            statics: statics.map(BodyRef::Static).map(name).collect(),
+        }
+    }
+
+    fn get(&self, body: BodyRef) -> (NodeKey, Arc<str>) {
+        let found = match body {
+            BodyRef::Dynamic(number) => self.dynamic.get(number as usize),
+            BodyRef::Static(number) => self.statics.get(number as usize),
+        };
+        found.cloned().unwrap_or_default()
+    }
+}
+
 /// Rows of one block: what a copy that is written to has to copy.
 const BLOCK: usize = 512;
+
+/// Events as they come, and the rows with their names, each made when it is asked for first.
+#[derive(Clone, Debug, Default)]
+struct Block {
+    events: Vec<Event>,
+    rows: Vec<OnceLock<Arc<EventRow>>>,
+    names: Arc<Names>,
+}
+
+impl Block {
+    fn new(names: Arc<Names>) -> Self {
+        Self { events: Vec::with_capacity(BLOCK), rows: Vec::with_capacity(BLOCK), names }
+    }
+
+    fn row(&self, nth: usize) -> Option<&Arc<EventRow>> {
+        let event = self.events.get(nth)?;
+        Some(self.rows.get(nth)?.get_or_init(|| Arc::new(EventRow::new(&self.names, event))))
+    }
+
+    fn push(&mut self, event: &Event, row: OnceLock<Arc<EventRow>>) {
+        self.events.push(*event);
+        self.rows.push(row);
+    }
+
+    fn truncate(&mut self, len: usize) {
+        self.events.truncate(len);
+        self.rows.truncate(len);
+    }
+}
 
 /// Rows in the order of their numbers, without a gap.
 #[derive(Clone, Debug, Default)]
 pub struct Ledger {
-    blocks: Vec<Arc<Vec<Arc<EventRow>>>>,
+    blocks: Vec<Arc<Block>>,
     len: usize,
+    /// Of the events that are noted from now on.
+    names: Arc<Names>,
 }
 
 impl FromIterator<EventRow> for Ledger {
     /// Rows in the order of their numbers, without a gap.
     fn from_iter<I: IntoIterator<Item = EventRow>>(rows: I) -> Self {
         let mut ledger = Self::default();
-        rows.into_iter().for_each(|row| ledger.push(row));
+        rows.into_iter().for_each(|row| ledger.push(&row.event.clone(), Arc::new(row).into()));
         ledger
     }
 }
 
 impl Ledger {
+    /// An empty one for the events of a simulation.
+    pub(super) fn of(simulation: &Simulation) -> Self {
+        Self { names: Arc::new(Names::of(simulation)), ..Self::default() }
+    }
+
+    pub(super) fn names(&self) -> &Arc<Names> {
+        &self.names
+    }
+
+    /// Other names for events that are noted from now on.
+    pub(super) fn rename(&mut self, names: Arc<Names>) {
+        if let Some(block) = self.blocks.last_mut() {
+            (0..block.events.len()).for_each(|nth| _ = block.row(nth));
+            Arc::make_mut(block).names = names.clone();
+        }
+        self.names = names;
+    }
+
     pub fn len(&self) -> usize {
         self.len
     }
@@ -71,12 +143,12 @@ impl Ledger {
 
     /// Number of the first row kept; 1 while nothing was dropped, and for an empty ledger.
     pub fn first(&self) -> u64 {
-        self.at(0).map_or(1, |row| row.event.seq)
+        self.blocks.first().and_then(|block| block.events.first()).map_or(1, |event| event.seq)
     }
 
     /// The n-th row that is kept.
     pub fn at(&self, index: usize) -> Option<&Arc<EventRow>> {
-        self.blocks.get(index / BLOCK)?.get(index % BLOCK)
+        self.blocks.get(index / BLOCK)?.row(index % BLOCK)
     }
 
     /// The row of an event's number.
@@ -94,23 +166,23 @@ impl Ledger {
         let whole = self.blocks.get(index / BLOCK..).unwrap_or_default();
         whole.iter().enumerate().flat_map(move |(nth, block)| {
             let from = if nth == 0 { index % BLOCK } else { 0 };
-            block.get(from..).unwrap_or_default()
+            (from..block.events.len()).filter_map(|nth| block.row(nth))
         })
     }
 
     /// How many rows happened before a time, or not after it.
     pub fn count_before(&self, time: f64) -> usize {
-        self.count_while(|row| row.event.time < time)
+        self.count_while(|event| event.time < time)
     }
 
     pub fn count_until(&self, time: f64) -> usize {
-        self.count_while(|row| row.event.time <= time)
+        self.count_while(|event| event.time <= time)
     }
 
     /// How many of the first rows fulfil what no later one does after the first that does not.
-    fn count_while(&self, holds: impl Fn(&EventRow) -> bool) -> usize {
-        let before = self.blocks.partition_point(|block| block.last().is_some_and(|row| holds(row)));
-        let inside = self.blocks.get(before).map_or(0, |block| block.partition_point(|row| holds(row)));
+    fn count_while(&self, holds: impl Fn(&Event) -> bool) -> usize {
+        let before = self.blocks.partition_point(|block| block.events.last().is_some_and(&holds));
+        let inside = self.blocks.get(before).map_or(0, |block| block.events.partition_point(&holds));
         (before * BLOCK + inside).min(self.len)
     }
 
@@ -119,12 +191,16 @@ impl Ledger {
         self.first() + self.count_until(time) as u64 - 1
     }
 
-    pub(super) fn push(&mut self, row: EventRow) {
-        if self.blocks.last().is_none_or(|block| block.len() == BLOCK) {
-            self.blocks.push(Arc::new(Vec::with_capacity(BLOCK)));
+    pub(super) fn note(&mut self, event: &Event) {
+        self.push(event, OnceLock::new());
+    }
+
+    fn push(&mut self, event: &Event, row: OnceLock<Arc<EventRow>>) {
+        if self.len.is_multiple_of(BLOCK) {
+            self.blocks.push(Arc::new(Block::new(self.names.clone())));
         }
         if let Some(block) = self.blocks.last_mut() {
-            Arc::make_mut(block).push(Arc::new(row));
+            Arc::make_mut(block).push(event, row);
             self.len += 1;
         }
     }
@@ -146,21 +222,22 @@ impl Ledger {
 
     pub(super) fn append(&mut self, rows: Vec<Arc<EventRow>>) {
         for row in rows {
-            self.push(Arc::unwrap_or_clone(row));
+            self.push(&row.event.clone(), row.into());
         }
     }
 
     /// Drops whole blocks of rows before a time.
     pub(super) fn drop_before(&mut self, time: f64) {
-        let old = |block: &Arc<Vec<Arc<EventRow>>>| block.last().is_some_and(|row| row.event.time < time);
+        let old = |block: &Arc<Block>| block.events.last().is_some_and(|event| event.time < time);
         let gone = self.blocks.partition_point(old).min(self.blocks.len().saturating_sub(1));
         self.blocks.drain(..gone);
         self.len -= gone * BLOCK;
     }
 
-    /// Bytes that the rows take.
+    /// Bytes that the rows take once all of them are made.
     pub(super) fn bytes(&self) -> usize {
-        self.len * (size_of::<EventRow>() + 3 * size_of::<usize>())
+        let row = size_of::<EventRow>() + 2 * size_of::<usize>();
+        self.len * (size_of::<Event>() + size_of::<OnceLock<Arc<EventRow>>>() + row)
     }
 }
 
@@ -186,6 +263,8 @@ mod tests {
             group: 0,
             row_in_group: [0; 2],
             bodies: 1,
+            gap: 0.0,
+            rounds: 0,
         };
         EventRow { event, a_key: NodeKey(1), b_key: None, a_label: "1".into(), b_label: Arc::default() }
     }

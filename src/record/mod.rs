@@ -10,6 +10,7 @@ mod keyframes;
 mod lag;
 mod ledger;
 mod limits;
+mod log;
 mod moment;
 mod motion;
 mod moving;
@@ -25,7 +26,6 @@ mod settle_tests;
 mod task;
 mod thread;
 mod ticks;
-mod track;
 mod verify;
 mod ways;
 

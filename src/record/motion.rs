@@ -2,9 +2,9 @@
 //! goes on.
 
 use super::ledger::Ledger;
+use super::log::Log;
 use super::moment::Moment;
 use super::recording::Recording;
-use super::track::Track;
 use crate::scene::NodeKey;
 use crate::sim::{BodyRef, BodyState, Simulation};
 
@@ -13,26 +13,24 @@ use crate::sim::{BodyRef, BodyState, Simulation};
 pub struct RecordedMotion {
     /// Those that were there at the end, in their order.
     bodies: Vec<MovingBody>,
+    log: Log,
     ledger: Ledger,
     from: Moment,
     end: Moment,
 }
 
-/// One body and its way.
 #[derive(Clone, Debug)]
 struct MovingBody {
     body: BodyRef,
     key: NodeKey,
-    track: Track,
 }
 
 impl RecordedMotion {
     pub(super) fn of(recording: &Recording, simulation: &Simulation) -> Self {
-        let moving = |body| {
-            Some(MovingBody { body, key: simulation.key(body), track: recording.track(body)?.clone() })
-        };
-        let bodies = simulation.dynamic_bodies().filter_map(moving).collect();
-        Self { bodies, ledger: recording.ledger.clone(), from: recording.from(), end: recording.end }
+        let moving = |body| MovingBody { body, key: simulation.key(body) };
+        let bodies = simulation.dynamic_bodies().map(moving).collect();
+        let (log, ledger) = (recording.log.clone(), recording.ledger.clone());
+        Self { bodies, log, ledger, from: recording.from(), end: recording.end }
     }
 
     /// From when to when it is recorded, s.
@@ -57,12 +55,12 @@ impl RecordedMotion {
             time if time == self.from.time => self.from,
             time => Moment::after_all(self.ledger.number_until(time), time),
         };
-        Some(self.bodies.get(nth)?.track.at(moment)?.at(time))
+        Some(self.log.at(self.bodies.get(nth)?.body, moment)?.at(time))
     }
 
     /// Right after an event of the ledger.
     pub fn state_after(&self, nth: usize, event: u64) -> Option<BodyState> {
         let time = self.ledger.get(event)?.event.time;
-        Some(self.bodies.get(nth)?.track.at(Moment::right_after(event, time))?.at(time))
+        Some(self.log.at(self.bodies.get(nth)?.body, Moment::right_after(event, time))?.at(time))
     }
 }

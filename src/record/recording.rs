@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use super::grid::StepGrid;
 use super::keyframes::{Keyframe, Keyframes};
-use super::ledger::{EventRow, Ledger};
+use super::ledger::{EventRow, Ledger, Names};
+use super::log::{Log, Noted};
 use super::moment::Moment;
 use super::ticks::{Tick, Ticks};
-use super::track::{Noted, Track, bytes_of};
 use crate::sim::{BodyRef, Event, Piece, SimEdit, Simulation};
 
 /// Memory that a recording may take unless told otherwise, bytes: ten minutes of ten bodies, seconds of ten thousand.
@@ -27,8 +27,7 @@ pub(super) struct RecordedEdits {
 
 #[derive(Debug)]
 pub(super) struct Recording {
-    /// By the number of the dynamic body.
-    tracks: Vec<Track>,
+    pub(super) log: Log,
     pub(super) ledger: Ledger,
     pub(super) ticks: Ticks,
     pub(super) keyframes: Keyframes,
@@ -40,8 +39,6 @@ pub(super) struct Recording {
     pub(super) end: Moment,
     /// The Δt around the end.
     pub(super) end_grid: StepGrid,
-    /// Bytes that the tracks take.
-    track_bytes: usize,
     budget: usize,
 }
 
@@ -51,15 +48,16 @@ pub(super) struct Future {
     pub(super) from: Moment,
     end: Moment,
     end_grid: StepGrid,
-    tracks: Vec<Vec<Noted>>,
+    pieces: Vec<Noted>,
     rows: Vec<Arc<EventRow>>,
+    names: Arc<Names>,
     ticks: Vec<Tick>,
     keyframes: Vec<Keyframe>,
     head: Option<Box<Keyframe>>,
     edits: Vec<RecordedEdits>,
-    /// How many edits and, of every body, pieces were before it.
+    /// How many edits and pieces were before it.
     edits_before: usize,
-    pieces_before: Vec<u64>,
+    pieces_before: u64,
 }
 
 impl Future {
@@ -74,15 +72,14 @@ impl Recording {
         let at = Moment::right_after(0, simulation.time());
         simulation.trace_motion();
         let mut recording = Self {
-            tracks: Vec::new(),
-            ledger: Ledger::default(),
+            log: Log::default(),
+            ledger: Ledger::of(simulation),
             ticks: Ticks::new(at, grid),
             keyframes: Keyframes::default(),
             edits: Vec::new(),
             from: at,
             end: at,
             end_grid: grid,
-            track_bytes: 0,
             budget,
         };
         recording.take_motion(simulation);
@@ -92,22 +89,11 @@ impl Recording {
 
     /// Takes over the motion that the simulation has begun.
     pub(super) fn take_motion(&mut self, simulation: &mut Simulation) {
-        let (tracks, bytes) = (&mut self.tracks, &mut self.track_bytes);
-        simulation.take_motion(&mut |begun| {
-            let BodyRef::Dynamic(body) = begun.body else { return };
-            let body = body as usize;
-            if tracks.len() <= body {
-                tracks.resize_with(body + 1, Track::default);
-            }
-            let from = Moment { event: begun.event, time: begun.piece.start(), is_over: !begun.by_event };
-            let noted = Noted { from, piece: begun.piece };
-            *bytes += bytes_of(&noted);
-            tracks[body].push(noted);
-        });
+        simulation.take_motion(&mut |begun| self.log.note(begun));
     }
 
-    pub(super) fn note_event(&mut self, simulation: &Simulation, event: &Event) {
-        self.ledger.push(EventRow::new(simulation, event));
+    pub(super) fn note_event(&mut self, event: &Event) {
+        self.ledger.note(event);
     }
 
     /// Notes the end of a Δt, with a keyframe now and then.
@@ -123,6 +109,7 @@ impl Recording {
     /// Records edits made at the end of what is known.
     pub(super) fn note_edits(&mut self, simulation: &Simulation, edits: Vec<SimEdit>) {
         self.edits.push(RecordedEdits { at: self.end, edits });
+        self.ledger.rename(Arc::new(Names::of(simulation)));
         let keyframe = Keyframe::new(simulation, self.end, self.edits.len());
         self.keyframes.push(keyframe.after_edit());
     }
@@ -135,13 +122,13 @@ impl Recording {
 
     /// The piece of motion that a body follows at a moment.
     pub(super) fn piece(&self, body: BodyRef, moment: Moment) -> Option<&Piece> {
-        self.track(body)?.at(moment)
+        self.log.at(body, moment)
     }
 
     /// The pieces that a body follows between two times of what is known.
     pub(super) fn pieces(&self, body: BodyRef, from: f64, to: f64) -> impl Iterator<Item = &Piece> {
         let (from, to) = (self.moment_at(from), self.moment_at(to));
-        self.track(body).into_iter().flat_map(move |track| track.between(from, to))
+        self.log.between(body, from, to)
     }
 
     /// After all that happens at a time; the first or last moment known where the time is before or after them.
@@ -158,13 +145,6 @@ impl Recording {
         time < self.end.time || (time == self.end.time && self.end.is_over)
     }
 
-    pub(super) fn track(&self, body: BodyRef) -> Option<&Track> {
-        match body {
-            BodyRef::Dynamic(body) => self.tracks.get(body as usize),
-            BodyRef::Static(_) => None,
-        }
-    }
-
     /// All edits, in the order of their moments.
     pub(super) fn edits(&self) -> &[RecordedEdits] {
         &self.edits
@@ -176,7 +156,7 @@ impl Recording {
     }
 
     pub(super) fn bytes(&self) -> usize {
-        self.track_bytes + self.ledger.bytes() + self.keyframes.bytes()
+        self.log.bytes() + self.ledger.bytes() + self.keyframes.bytes()
     }
 
     pub(super) fn budget(&self) -> usize {
@@ -203,29 +183,26 @@ impl Recording {
         self.from = Moment::after_all(self.ledger.number_until(time), time);
         self.ledger.drop_before(time);
         self.ticks.drop_before(time);
-        let freed: usize = self.tracks.iter_mut().map(|track| track.drop_before(time)).sum();
-        self.track_bytes = self.track_bytes.saturating_sub(freed);
+        self.log.drop_before(time);
     }
 
     /// Takes what lies after a moment: something else will happen from there on.
     pub(super) fn split_off(&mut self, at: Moment) -> Future {
         let edits_before = self.edits.partition_point(|edits| edits.at.is_not_after(at));
-        let future = Future {
+        Future {
             from: at,
             end: std::mem::replace(&mut self.end, at),
             end_grid: self.end_grid,
-            tracks: self.tracks.iter_mut().map(|track| track.split_off(at)).collect(),
+            pieces: self.log.split_off(at),
             rows: self.ledger.split_off(at.event),
+            names: self.ledger.names().clone(),
             ticks: self.ticks.split_off(at),
             keyframes: self.keyframes.split_off(at),
             head: self.keyframes.take_head(),
             edits: self.edits.split_off(edits_before),
             edits_before,
-            pieces_before: self.tracks.iter().map(Track::count).collect(),
-        };
-        let freed: usize = future.tracks.iter().flatten().map(bytes_of).sum();
-        self.track_bytes = self.track_bytes.saturating_sub(freed);
-        future
+            pieces_before: self.log.count(),
+        }
     }
 
     /// Puts back what was taken, in place of what lies after the moment where it was.
@@ -233,17 +210,11 @@ impl Recording {
         self.split_off(future.from);
         self.edits.truncate(future.edits_before);
         self.keyframes.drop_after_edits(future.edits_before);
-        let before = future.pieces_before.iter().copied().chain(std::iter::repeat(0));
-        let freed: usize =
-            self.tracks.iter_mut().zip(before).map(|(track, count)| track.truncate(count)).sum();
-        self.track_bytes = self.track_bytes.saturating_sub(freed);
+        self.log.truncate(future.pieces_before);
         (self.end, self.end_grid) = (future.end, future.end_grid);
-        self.track_bytes += future.tracks.iter().flatten().map(bytes_of).sum::<usize>();
-        self.tracks.resize_with(self.tracks.len().max(future.tracks.len()), Track::default);
-        for (track, rest) in self.tracks.iter_mut().zip(future.tracks) {
-            track.append(rest);
-        }
+        self.log.append(future.pieces);
         self.ledger.append(future.rows);
+        self.ledger.rename(future.names);
         self.ticks.append(future.ticks);
         self.keyframes.append(future.keyframes);
         if let Some(head) = future.head {

@@ -36,6 +36,8 @@ pub const EVENT_COLUMNS: &[Column] = &[
     Column::new("vn_after", "/vn_after"),
     Column::new("group", "/group"),
     Column::new("bodies", "/bodies"),
+    Column::new("gap", "/gap"),
+    Column::new("rounds", "/rounds"),
 ];
 
 /// One contact of one event. Units as in [`Event`]; to a reader −0 is 0.
@@ -54,6 +56,8 @@ pub struct EventLine<'a> {
     group: u64,
     #[serde(skip_serializing_if = "Option::is_none")]
     bodies: Option<u32>,
+    gap: f64,
+    rounds: u32,
 }
 
 impl<'a> EventLine<'a> {
@@ -72,6 +76,8 @@ impl<'a> EventLine<'a> {
             vn_after: event.vn_after,
             group: event.group,
             bodies: is_about_many(event.kind).then_some(event.bodies),
+            gap: event.gap + 0.0,
+            rounds: event.rounds,
         }
     }
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::drift::Drift;
 use super::grid::StepGrid;
+use super::ledger::Names;
 use super::moment::Moment;
 use super::recording::{Future, Recording};
 use super::ticks::Tick;
@@ -240,6 +241,7 @@ impl Run {
     /// Forgets what lies after what is shown, where the simulation stands.
     fn drop_future(&mut self) {
         let future = self.recording.split_off(self.cursor);
+        self.recording.ledger.rename(Arc::new(Names::of(&self.simulation)));
         let lost = future.edit_count();
         if lost > 0 {
             self.message = Some(format!("{lost} edit(s) made later no longer apply"));
@@ -265,7 +267,7 @@ impl Run {
 
     /// Enters an event into the recording.
     fn note(&mut self, event: &Event) {
-        self.recording.note_event(&self.simulation, event);
+        self.recording.note_event(event);
         self.drift.note(&self.simulation, event);
     }
 

@@ -124,6 +124,11 @@ pub struct Event {
     pub row_in_group: [u32; 2],
     /// How many bodies it is about.
     pub bodies: u32,
+    /// Distance of the surfaces where the search for the time of contact ended, m: what its root left over. 0 where
+    /// nothing was searched for.
+    pub gap: f64,
+    /// In how many rounds the contacts of the impact group were resolved; 0 for two bodies alone, by Newton's law.
+    pub rounds: u32,
 }
 
 impl Event {
@@ -143,6 +148,8 @@ impl Event {
             group: 0,
             row_in_group: [0; 2],
             bodies: 1,
+            gap: 0.0,
+            rounds: 0,
         }
     }
 }

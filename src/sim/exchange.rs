@@ -29,6 +29,7 @@ pub(super) fn exchange(model: &Model, state: &mut State, time: f64, pair: Pair, 
         vn_after: parting,
         group: state.group,
         row_in_group: [1; 2],
+        gap: gap.distance,
         ..contact_event(time, EventKind::Impact, pair, gap)
     };
     record(state, in_id_order(model, event));

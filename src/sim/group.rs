@@ -44,6 +44,8 @@ pub(super) struct Group {
     pub fastest: f64,
     /// Energy taken by the law of each round, J: not what the velocities say, so that the books can tell.
     pub loss: f64,
+    /// In how many its contacts were resolved.
+    pub rounds: u32,
     /// Angular velocities, rad/s; none where nothing rubs.
     pub spins: Vec<DVec3>,
 }
@@ -96,7 +98,7 @@ impl Group {
         let bodies = Island::at(model, state, ids, time);
         let members = pairs.into_iter().map(|pair| member(model, state, &bodies, pair, time)).collect();
         let fastest = bodies.v.iter().map(|v| v.length()).fold(0.0, f64::max);
-        Self { bodies, members, time, fastest, loss: 0.0, spins: Vec::new() }
+        Self { bodies, members, time, fastest, loss: 0.0, rounds: 0, spins: Vec::new() }
     }
 
     /// The contacts as bounds on accelerations at the present velocities.
@@ -143,6 +145,7 @@ impl Group {
                 break;
             }
             let before = self.bodies.v.clone();
+            self.rounds += 1;
             if round < rounds {
                 split(&closing, &couplings).iter().for_each(|coupled| self.reflect(coupled));
             } else {

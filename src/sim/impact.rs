@@ -201,6 +201,8 @@ fn list(model: &Model, state: &mut State, time: f64, group: &Group, kind: EventK
             vn_before: 0.0 - member.before,
             vn_after: 0.0 - group.closing(member),
             group: state.group,
+            gap: member.gap.distance,
+            rounds: group.rounds,
             ..contact_event(time, kind, member.pair, &member.gap)
         };
         in_id_order(model, event)

@@ -1,5 +1,6 @@
 //! The simulation as its users see it: compile, begin, next event, finish, read.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -180,6 +181,12 @@ impl Simulation {
     /// All dynamic bodies that are there now, in UserID order; those added while running come last.
     pub fn dynamic_bodies(&self) -> impl Iterator<Item = BodyRef> + '_ {
         self.model.present().map(BodyRef::Dynamic)
+    }
+
+    /// The numbers of all dynamic and of all static bodies that ever were there, by which a [`BodyRef`] names them.
+    pub fn body_numbers(&self) -> (Range<u32>, Range<u32>) {
+        let bodies = &self.model.bodies;
+        (0..bodies.dynamic().len() as u32, 0..bodies.static_len() as u32)
     }
 
     /// State of a dynamic body now; `None` for a static or removed one.

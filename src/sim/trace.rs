@@ -93,6 +93,11 @@ impl Piece {
         self.start
     }
 
+    #[cfg(test)]
+    pub(crate) fn starting_at(&self, start: f64) -> Self {
+        Self { start, ..self.clone() }
+    }
+
     /// Highest power of the time: 0 at rest, 1 straight, 2 a parabola, 9 of integrated motion.
     pub fn degree(&self) -> u32 {
         match () {

@@ -171,6 +171,8 @@ fn event(seq: u64) -> EventRow {
         group: 0,
         row_in_group: [0; 2],
         bodies: 1,
+        gap: 0.0,
+        rounds: 0,
     };
     let [a_label, b_label] = ["6", "7"].map(Arc::from);
     EventRow { event, a_key: NodeKey(u64::MAX), b_key: None, a_label, b_label }

@@ -67,6 +67,7 @@ impl Scale {
         Event {
             time: event.time * self.time,
             point: event.point * self.length,
+            gap: event.gap * self.length,
             impulse: event.impulse * self.mass * self.speed(),
             vn_before: event.vn_before * self.speed(),
             vn_after: event.vn_after * self.speed(),

@@ -100,6 +100,8 @@ pub fn frame() -> Frame {
         group: 5,
         row_in_group: [1; 2],
         bodies: 2,
+        gap: 0.0,
+        rounds: 0,
     };
     let row = EventRow {
         event,

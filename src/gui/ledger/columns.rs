@@ -23,7 +23,7 @@ pub struct LedgerColumn {
 pub const KIND: usize = 3;
 pub const BODIES: usize = 4;
 
-pub const COLUMNS: [LedgerColumn; 12] = [
+pub const COLUMNS: [LedgerColumn; 14] = [
     LedgerColumn {
         title: "#",
         help: "Number of the event since the start",
@@ -93,6 +93,20 @@ pub const COLUMNS: [LedgerColumn; 12] = [
         width: 56.0,
         text: |_, row| if row.event.group > 0 { row.event.group.to_string() } else { String::new() },
         key: Some(|row| row.event.group as f64),
+    },
+    LedgerColumn {
+        title: "Rounds",
+        help: "In how many rounds the contacts of the group were resolved; 0 for two bodies alone, by Newton's law",
+        width: 58.0,
+        text: |_, row| if_impact(row, || row.event.rounds.to_string()),
+        key: Some(|row| f64::from(row.event.rounds)),
+    },
+    LedgerColumn {
+        title: "Gap left [m]",
+        help: "Distance of the surfaces where the search for the time of contact ended: what its root left over",
+        width: 88.0,
+        text: |_, row| if_impact(row, || significant(row.event.gap, 2)),
+        key: Some(|row| row.event.gap.abs()),
     },
     LedgerColumn {
         title: "Place [m]",

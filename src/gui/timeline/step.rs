@@ -243,6 +243,8 @@ mod tests {
             group: 0,
             row_in_group: [0; 2],
             bodies: 2,
+            gap: 0.0,
+            rounds: 0,
         };
         Arc::new(EventRow {
             event,

@@ -96,3 +96,32 @@ fn what_is_no_recording_is_refused_with_its_reason() {
     assert_eq!(kept.code, 2, "{}", kept.stderr);
     assert_eq!(bench.read("run.psrec"), text);
 }
+
+/// What was recorded is what the scene does: the motion of a recording, looked up, is byte for byte that of its scene,
+/// simulated.
+#[test]
+fn the_motion_of_a_recording_is_exported() {
+    let bench = recorded();
+    let motion = ["--to", "csv", "--from", "0.5", "--until", "2", "--fps", "30"];
+    let export = |file: &str| {
+        let outcome = bench.polyscene(&[&["export", file], &motion[..]].concat());
+        assert_eq!(outcome.code, 0, "{}", outcome.stderr);
+        outcome.stdout
+    };
+    let simulated = export("scene.xml");
+    assert!(simulated.lines().count() > 45, "{simulated}");
+    assert_eq!(export("run.psrec"), simulated);
+
+    let whole = bench.polyscene(&["export", "run.psrec", "--to", "gltf", "-o", "motion.glb"]);
+    assert_eq!(whole.code, 0, "{}", whole.stderr);
+    assert!(bench.path("motion.glb").exists());
+    for (asked, expected) in [
+        (&["--to", "csv", "--until", "9"][..], "recorded from 0 s to 2.5 s only"),
+        (&["--to", "csv", "--at", "1"], "is a recording"),
+        (&["--to", "mjcf"], "can hold it"),
+    ] {
+        let refused = bench.polyscene(&[&["export", "run.psrec"], asked].concat());
+        assert_eq!((refused.code, refused.stdout.as_str()), (2, ""), "{}", refused.stderr);
+        assert!(refused.stderr.contains(expected), "{}", refused.stderr);
+    }
+}
