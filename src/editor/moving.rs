@@ -33,6 +33,12 @@ impl Session {
         self.run.show_paths(span);
     }
 
+    /// Whether the frames from now on have the tile crossings of the selected bodies.
+    pub fn show_crossings(&mut self, wanted: bool) {
+        let keys = if wanted { self.selected_bodies() } else { Vec::new() };
+        self.run.show_crossings(&keys);
+    }
+
     pub fn travel(&self) -> &Travel {
         &self.travel
     }

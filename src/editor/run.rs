@@ -8,7 +8,7 @@ use super::talk::Talk;
 use super::travel::Way;
 use super::{Notice, Playback};
 use crate::record::{EventRow, Frame, PathSpan, RunCommand, RunState, Runner, Written};
-use crate::scene::{Diagnostic, Document, Scene, Touched, shown_path};
+use crate::scene::{Diagnostic, Document, NodeKey, Scene, Touched, shown_path};
 use crate::sim::Method;
 
 /// How long a drag must stand still until the simulation hears of it. Shorter would compile a scene for
@@ -21,6 +21,8 @@ pub(super) struct Run {
     sent: u64,
     /// What ways the runner was asked for.
     paths: Option<PathSpan>,
+    /// Of which bodies it was asked for the tile crossings.
+    crossings: Arc<[NodeKey]>,
     pub frame: Arc<Frame>,
     pub playback: Playback,
     pub shown_event: Option<Arc<EventRow>>,
@@ -50,6 +52,7 @@ impl Run {
             runner,
             sent: 0,
             paths: None,
+            crossings: Arc::default(),
             playback,
             shown_event: None,
             running: None,
@@ -254,6 +257,14 @@ impl Run {
         if self.paths != span {
             self.paths = span;
             self.send(RunCommand::Paths(span));
+        }
+    }
+
+    /// Of which bodies the frames have the tile crossings.
+    pub fn show_crossings(&mut self, keys: &[NodeKey]) {
+        if *self.crossings != *keys {
+            self.crossings = keys.into();
+            self.send(RunCommand::Crossings(self.crossings.clone()));
         }
     }
 

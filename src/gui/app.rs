@@ -152,6 +152,7 @@ impl App {
         self.session.poll(Instant::now());
         self.look_at_scene();
         self.session.show_paths(self.views.wanted_paths());
+        self.session.show_crossings(self.timeline.shows_crossings());
         let blocked = self.session.question().is_some()
             || self.dialogs.are_open()
             || egui::Popup::is_any_open(ctx)

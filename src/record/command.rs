@@ -9,7 +9,7 @@ use super::ways::PathSpan;
 use crate::scene::{NodeKey, Scene};
 use crate::sim::{Method, SimEdit};
 
-/// Commands are carried out in the order sent, between events. All but `Load`, `Reset`, `Method`, `Budget` and `Paths` are
+/// Commands are carried out in the order sent, between events. All but `Load`, `Reset`, `Method`, `Budget`, `Paths` and `Crossings` are
 /// refused (and ignored) while no simulation is loaded. What is recorded is gone through by looking it up; what is not, by
 /// simulating.
 #[derive(Clone, Debug)]
@@ -78,6 +78,8 @@ pub enum RunCommand {
     Budget(usize),
     /// How much of the bodies' ways frames have; none by default.
     Paths(Option<PathSpan>),
+    /// Of which bodies frames have the tile crossings; of none by default.
+    Crossings(Arc<[NodeKey]>),
 }
 
 /// Which events are meant.

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::file::Written;
 use super::ledger::{EventRow, Ledger};
 use super::motion::RecordedMotion;
-use super::ways::{BodyPath, ImpactBody};
+use super::ways::{BodyPath, Crossing, ImpactBody};
 use crate::scene::{Diagnostic, NodeKey};
 use crate::sim::{ContactState, Counters, Energy, Method, Momentum, Plan, Rotation, SteppedBodies, Tiling};
 
@@ -159,6 +159,8 @@ pub struct Frame {
     pub at_impact: Arc<Vec<ImpactBody>>,
     /// Ways of the bodies, if they are asked for.
     pub paths: Arc<Vec<BodyPath>>,
+    /// Tile crossings in the Δt being looked at, of the bodies for which they are asked.
+    pub crossings: Arc<Vec<Crossing>>,
     /// Events since the start.
     pub event_count: u64,
     pub energy: Option<Energy>,

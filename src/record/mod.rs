@@ -1,6 +1,7 @@
 //! Driving a simulation: commands in, published frames out, on this thread or on one of its own.
 
 mod command;
+mod crossings;
 mod drift;
 mod file;
 mod frame;
@@ -44,7 +45,7 @@ pub use motion::RecordedMotion;
 pub use rows::{Column, EVENT_COLUMNS, EventLine, cells};
 pub use thread::ThreadRunner;
 pub use verify::{Compared, Rerun, RerunError};
-pub use ways::{BodyPath, ImpactBody, PathSpan};
+pub use ways::{BodyPath, Crossing, ImpactBody, PathSpan};
 
 /// Something that runs a simulation on command. The application uses a thread, so that no scene can
 /// freeze the window; tests run inline, so that nothing sleeps.

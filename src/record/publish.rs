@@ -2,12 +2,14 @@
 
 use std::sync::Arc;
 
+use super::crossings::crossings;
 use super::frame::{BodyFrame, ContactFrame, Frame, Lag, Recorded};
 use super::ledger::EventRow;
 use super::paths::{at_impact, paths};
 use super::recorder::RunRecorder;
 use super::run::Run;
 use super::ways::PathSpan;
+use crate::scene::NodeKey;
 use crate::sim::{BodyRef, BodyState, Simulation};
 
 /// Occupied tiles that a frame lists; an overlay that shows more would be a solid block.
@@ -43,19 +45,19 @@ pub(super) fn frame_of(recorder: &mut RunRecorder, revision: u64, command: u64, 
         lag: pace.lag,
         ..Frame::default()
     };
-    let span = recorder.paths;
+    let (span, crossed) = (recorder.paths, recorder.crossings.clone());
     match &mut recorder.run {
         None => base,
         Some(run) if run.is_settled() => {
             run.look_for_overlap();
-            settled(looked_up(base, run, span), run)
+            settled(looked_up(base, run, span, &crossed), run)
         }
-        Some(run) => Frame { bodies: bodies_looked_up(run), ..looked_up(base, run, span) },
+        Some(run) => Frame { bodies: bodies_looked_up(run), ..looked_up(base, run, span, &crossed) },
     }
 }
 
 /// What the recording says of the moment shown.
-fn looked_up(base: Frame, run: &Run, span: Option<PathSpan>) -> Frame {
+fn looked_up(base: Frame, run: &Run, span: Option<PathSpan>, crossed: &[NodeKey]) -> Frame {
     let (events, events_truncated) = events(run);
     Frame {
         time: run.cursor.time,
@@ -68,6 +70,7 @@ fn looked_up(base: Frame, run: &Run, span: Option<PathSpan>) -> Frame {
         recorded: Arc::new(recorded(run)),
         at_impact: Arc::new(at_impact(run)),
         paths: span.map_or_else(Arc::default, |span| Arc::new(paths(run, span))),
+        crossings: Arc::new(crossings(run, crossed)),
         event_count: run.cursor.event,
         largest_jump: run.drift.largest(run.cursor.event),
         worst_overlap: run.worst_overlap,

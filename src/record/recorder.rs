@@ -12,7 +12,7 @@ use super::recording::BUDGET;
 use super::run::Run;
 use super::task::{Play, Task};
 use super::ways::PathSpan;
-use crate::scene::{Diagnostic, Scene};
+use crate::scene::{Diagnostic, NodeKey, Scene};
 use crate::sim::{Method, SimEdit, Simulation};
 
 /// Drives one simulation.
@@ -31,6 +31,8 @@ pub(super) struct RunRecorder {
     budget: usize,
     /// How much of the bodies' ways frames have.
     pub(super) paths: Option<PathSpan>,
+    /// Of which bodies frames have the tile crossings.
+    pub(super) crossings: Arc<[NodeKey]>,
     /// The file that was written last.
     pub(super) written: Option<Arc<Written>>,
     /// The motion that was asked for.
@@ -48,6 +50,7 @@ impl Default for RunRecorder {
             edits: Vec::new(),
             budget: BUDGET,
             paths: None,
+            crossings: Arc::default(),
             written: None,
             motion: None,
         }
@@ -60,8 +63,9 @@ impl RunRecorder {
         match command {
             RunCommand::Load(scene) => self.load(scene),
             RunCommand::Unload => {
-                *self =
-                    Self { method: self.method, budget: self.budget, paths: self.paths, ..Self::default() }
+                let crossings = std::mem::take(&mut self.crossings);
+                let (method, budget, paths) = (self.method, self.budget, self.paths);
+                *self = Self { method, budget, paths, crossings, ..Self::default() };
             }
             RunCommand::Reset => self.reset(),
             RunCommand::Method(method) if method != self.method => {
@@ -71,6 +75,7 @@ impl RunRecorder {
             RunCommand::Method(_) => {}
             RunCommand::Budget(bytes) => self.set_budget(bytes),
             RunCommand::Paths(span) => self.paths = span,
+            RunCommand::Crossings(keys) => self.crossings = keys,
             RunCommand::ShareMotion(wanted) => {
                 let run = self.run.as_ref().filter(|_| wanted);
                 self.motion = run.map(|run| Arc::new(RecordedMotion::of(&run.recording, &run.simulation)));

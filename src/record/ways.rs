@@ -34,3 +34,15 @@ pub struct ImpactBody {
     pub at_start: DVec3,
     pub at_end: Option<DVec3>,
 }
+
+/// A body's centre goes through a face between two tiles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    pub key: NodeKey,
+    /// s.
+    pub time: f64,
+    /// 0 to 2: x, y, z.
+    pub axis: usize,
+    /// Numbers of the tiles along that axis, counted from 0: the one left and the one entered.
+    pub tiles: [u32; 2],
+}

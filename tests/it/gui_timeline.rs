@@ -56,6 +56,21 @@ fn the_timeline_is_clicked_and_stepped_through_by_arrows() {
 }
 
 #[test]
+fn tile_crossings_of_the_selected_body_are_marked_on_request() {
+    let mut window = Window::sample("gas");
+    let body = window.scene().bodies.iter().find(|body| body.is_dynamic()).map(|body| body.label.clone());
+    window.click(&body.expect("a ball"));
+    type_time(&mut window, "3");
+    assert!(window.has("Events in this Δt"));
+    window.click("Tile crossings");
+    assert!(window.has_containing("Events in this Δt, "));
+    let selected = window.selected().to_vec();
+    assert!(window.frame().crossings.iter().all(|crossing| selected.contains(&crossing.key)));
+    window.click("Tile crossings");
+    assert!(window.has("Events in this Δt"));
+}
+
+#[test]
 fn the_ledger_lists_the_whole_run_and_goes_to_its_events() {
     let mut window = Window::thesis();
     type_time(&mut window, "6");

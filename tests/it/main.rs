@@ -103,6 +103,8 @@ mod record_methods;
 mod record_drift;
 // Moving through a recorded run, in both directions.
 mod record_travel;
+// When recorded ways cross the faces of tiles.
+mod record_crossings;
 // Runners: the Δt grid, going back, edits with their stamps, playing.
 mod record_runner;
 // Pictures drawn in software without a window: silhouettes against their areas, depth order, caching.

@@ -9,10 +9,13 @@ use crate::editor::Action;
 use crate::gui::colors::{Tones, color32, tones};
 use crate::gui::context::{AppContext, Message};
 use crate::gui::numbers::significant;
-use crate::record::{EventRow, Frame};
+use crate::record::{Crossing, EventRow, Frame};
 use crate::sim::{BodyRef, EventKind};
 
 pub const HEIGHT: f32 = 30.0;
+
+/// Width of the switch of the tile crossings, points.
+const SWITCH: f32 = 56.0;
 
 /// How near the pointer must be to an event, points.
 const REACH: f32 = 6.0;
@@ -24,14 +27,16 @@ const ALL_DRAWN: usize = 1000;
 /// Places along the line that are told apart where there are more.
 const PLACES_PER_POINT: f32 = 1.0;
 
-pub fn show(ui: &mut Ui, context: &AppContext<'_>) {
+pub fn show(ui: &mut Ui, context: &AppContext<'_>, crossings: &mut bool) {
     let tones = tones(ui);
     let size = vec2(ui.available_width(), HEIGHT);
-    let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
-    response.widget_info(|| WidgetInfo::labeled(Role::Group, true, "Events in this Δt"));
-    let painter = ui.painter_at(rect);
-    painter.rect_filled(rect, 0.0, tones.heading);
+    let (whole, _) = ui.allocate_exact_size(size, Sense::hover());
+    ui.painter().rect_filled(whole, 0.0, tones.heading);
+    let rect = show_switch(ui, whole, crossings);
     let frame = context.session.frame();
+    let response = ui.interact(rect, ui.scope_id().with("events of a Δt"), Sense::click_and_drag());
+    response.widget_info(|| WidgetInfo::labeled(Role::Group, true, label(frame, *crossings)));
+    let painter = ui.painter_at(rect);
     let small = FontId::proportional(11.0);
     let Some((from, to)) = frame.step.filter(|(from, to)| to > from) else {
         let text = "The events of a Δt appear here at their times, once there is one";
@@ -40,6 +45,7 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>) {
     };
     let axis = Axis { line: axis_rect(ui, rect, frame, (from, to), &small, tones), from, to };
     axis.draw(ui, frame, tones);
+    frame.crossings.iter().for_each(|crossing| axis.mark_crossing(ui, crossing, tones));
     let events = events_between(frame, from, to);
     let hovered = response.hover_pos().and_then(|at| axis.nearest(&events, at));
     let largest = events.iter().map(|row| row.event.impulse).fold(0.0, f64::max);
@@ -57,10 +63,37 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>) {
     answer(context, &response, &axis, hovered);
     let text = match (hovered, response.hover_pos()) {
         (Some(event), _) => describe(context, event),
-        (None, Some(at)) => format!("t = {:.9} s", axis.time(at.x)),
+        (None, Some(at)) => match axis.nearest_crossing(frame, at) {
+            Some(crossing) => describe_crossing(context, crossing),
+            None => format!("t = {:.9} s", axis.time(at.x)),
+        },
         (None, None) => return,
     };
     response.on_hover_text_at_pointer(text);
+}
+
+/// The switch of the tile crossings at the right end; gives the room that is left of it.
+fn show_switch(ui: &mut Ui, whole: Rect, crossings: &mut bool) -> Rect {
+    let (rest, place) = whole.split_left_right_at_x(whole.right() - SWITCH);
+    let text = egui::RichText::new("Tiles").size(11.0);
+    let switch = ui.put(place.shrink2(vec2(4.0, 4.0)), egui::Button::selectable(*crossings, text));
+    switch.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, *crossings, "Tile crossings"));
+    if switch.clicked() {
+        *crossings = !*crossings;
+    }
+    switch.on_hover_text(
+        "Marks when the selected bodies cross from one tile of the map to the next in this Δt",
+    );
+    rest
+}
+
+/// What is said of the line to those who do not see it.
+fn label(frame: &Frame, crossings: bool) -> String {
+    match frame.crossings.len() {
+        _ if !crossings => "Events in this Δt".into(),
+        1 => "Events in this Δt, 1 tile crossing".into(),
+        count => format!("Events in this Δt, {count} tile crossings"),
+    }
 }
 
 /// The recorded events of a Δt; of very many the first.
@@ -205,11 +238,30 @@ impl Axis {
         }
     }
 
+    /// A wedge that hangs from above.
+    fn mark_crossing(&self, ui: &Ui, crossing: &Crossing, tones: Tones) {
+        let tip = pos2(self.x(crossing.time), self.line.top() + 7.0);
+        let corners = vec![tip, tip + vec2(-3.0, -7.0), tip + vec2(3.0, -7.0)];
+        ui.painter().add(egui::Shape::convex_polygon(corners, tones.warning, Stroke::NONE));
+    }
+
+    fn nearest_crossing<'a>(&self, frame: &'a Frame, at: Pos2) -> Option<&'a Crossing> {
+        let distance = |crossing: &Crossing| (self.x(crossing.time) - at.x).abs();
+        let near = frame.crossings.iter().filter(|crossing| distance(crossing) < REACH);
+        near.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    }
+
     fn nearest<'a>(&self, rows: &'a [Arc<EventRow>], at: Pos2) -> Option<&'a Arc<EventRow>> {
         let distance = |row: &EventRow| (self.x(row.event.time) - at.x).abs();
         let near = rows.iter().filter(|row| distance(row) < REACH);
         near.min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
+}
+
+fn describe_crossing(context: &AppContext<'_>, crossing: &Crossing) -> String {
+    let name = context.shown.and_then(|shown| shown.name(crossing.key)).unwrap_or("A body");
+    let (axis, [left, entered]) = (["x", "y", "z"][crossing.axis], crossing.tiles);
+    format!("{name} goes from tile {left} to {entered} in {axis}\nt = {:.9} s", crossing.time)
 }
 
 fn describe(context: &AppContext<'_>, row: &EventRow) -> String {
