@@ -33,4 +33,8 @@ pub struct EditArgs {
     /// Turn the first view for this many frames, report how long they took, then close
     #[arg(long, value_name = "FRAMES", hide = true)]
     pub bench_orbit: Option<u32>,
+
+    /// Select bodies, drag one and drag all for this many frames each, report how long they took, then close
+    #[arg(long, value_name = "FRAMES", hide = true)]
+    pub bench_edit: Option<u32>,
 }

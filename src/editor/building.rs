@@ -6,7 +6,7 @@ use super::copies::LastCopies;
 use super::edits::locked_keys;
 use super::{Notice, Outcome, Session};
 use crate::design::{self, Eye, Given, Plan, Repair, Repaired, TOOLS};
-use crate::scene::Edit;
+use crate::scene::{Edit, Side};
 
 impl Session {
     /// What tools work on, seen from here.
@@ -102,6 +102,18 @@ impl Session {
     pub(super) fn ungroup(&mut self) -> Outcome {
         let Some(given) = self.given(Eye::default()) else { return Outcome::no_scene() };
         let plan = design::ungroup(&given);
+        self.apply_plan(plan)
+    }
+
+    /// Moves the selection up or down in the tree.
+    pub(super) fn shift(&mut self, side: Side) -> Outcome {
+        let Some(given) = self.given(Eye::default()) else { return Outcome::no_scene() };
+        let plan = design::shift(&given, side);
+        if plan.edits.is_empty() {
+            let end = if side == Side::Before { "first" } else { "last" };
+            self.talk.notices.push(Notice::info(format!("It is the {end} of its kind already")));
+            return Outcome::Done;
+        }
         self.apply_plan(plan)
     }
 

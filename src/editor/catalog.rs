@@ -146,6 +146,20 @@ const WORKING: &[CommandInfo] = &[
         .session(SessionCommand::Ungroup)
         .keys(&[Shortcut::ctrl_shift('G')])
         .when(Session::has_group),
+    row(Menu::Edit, 3, "move_up", "Move up", "Moves the selection up in the scene tree and in the file")
+        .session(SessionCommand::MoveUp)
+        .keys(&[Shortcut::ctrl_key(Key::Up)])
+        .when(Session::has_selection),
+    row(
+        Menu::Edit,
+        3,
+        "move_down",
+        "Move down",
+        "Moves the selection down in the scene tree and in the file",
+    )
+    .session(SessionCommand::MoveDown)
+    .keys(&[Shortcut::ctrl_key(Key::Down)])
+    .when(Session::has_selection),
     row(
         Menu::Edit,
         3,

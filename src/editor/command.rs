@@ -43,6 +43,9 @@ pub enum SessionCommand {
     /// Gathers the selection in a group of the tree.
     Group,
     Ungroup,
+    /// In the tree, and in the file.
+    MoveUp,
+    MoveDown,
     Hide,
     ShowAll,
     Lock,
@@ -234,6 +237,8 @@ pub enum Key {
     Escape,
     End,
     Home,
+    Up,
+    Down,
     Function(u8),
 }
 
@@ -256,6 +261,10 @@ impl Shortcut {
 
     pub const fn ctrl(letter: char) -> Self {
         Self { key: Key::Char(letter), ctrl: true, shift: false }
+    }
+
+    pub const fn ctrl_key(key: Key) -> Self {
+        Self { key, ctrl: true, shift: false }
     }
 
     pub const fn ctrl_shift(letter: char) -> Self {
@@ -289,6 +298,8 @@ impl fmt::Display for Shortcut {
             Key::Escape => f.write_str("Esc"),
             Key::End => f.write_str("End"),
             Key::Home => f.write_str("Home"),
+            Key::Up => f.write_str("Up"),
+            Key::Down => f.write_str("Down"),
             Key::Function(n) => write!(f, "F{n}"),
         }
     }

@@ -2,6 +2,7 @@
 
 use super::{Action, Command, Intent, Notice, Outcome, Request, Session, SessionCommand, info};
 use crate::record::{Of, RunCommand, RunState};
+use crate::scene::Side;
 
 /// How many Δt the five-step commands take.
 const MANY_STEPS: u32 = 5;
@@ -95,6 +96,8 @@ impl Session {
             SessionCommand::SelectNone => self.selection.clear(),
             SessionCommand::Group => return self.group(),
             SessionCommand::Ungroup => return self.ungroup(),
+            SessionCommand::MoveUp => return self.shift(Side::Before),
+            SessionCommand::MoveDown => return self.shift(Side::After),
             SessionCommand::Hide => return self.hide_selection(),
             SessionCommand::ShowAll => return self.show_all(),
             SessionCommand::Lock => return self.lock_selection(),

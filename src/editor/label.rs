@@ -41,6 +41,7 @@ fn verb_of(edit: &Edit) -> &'static str {
         Edit::AddForce(_) => "Add a force",
         Edit::Duplicate { .. } | Edit::CopyBodies(_) => "Duplicate",
         Edit::Delete { .. } => "Delete",
+        Edit::Reorder { .. } => "Change the order of",
         Edit::MakeIdsUnique => "Make IDs unique",
         Edit::All(edits) => {
             let verbs: BTreeSet<&str> = edits.iter().map(verb_of).collect();
@@ -99,7 +100,9 @@ fn force_verb(change: &ForceChange) -> &'static str {
 fn collect_subjects(edit: &Edit, subjects: &mut BTreeSet<NodeKey>) {
     match edit {
         Edit::Body { key, .. } | Edit::Force { key, .. } => drop(subjects.insert(*key)),
-        Edit::Duplicate { keys, .. } | Edit::Delete { keys } => subjects.extend(keys),
+        Edit::Duplicate { keys, .. } | Edit::Delete { keys } | Edit::Reorder { keys, .. } => {
+            subjects.extend(keys)
+        }
         Edit::CopyBodies(copies) => subjects.extend(copies.iter().map(|copy| copy.of)),
         Edit::All(edits) => edits.iter().for_each(|edit| collect_subjects(edit, subjects)),
         Edit::MapSize(_)

@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 use egui::{Context, ViewportCommand};
 
 use super::app::{App, Parts, TIGHT};
+use super::bench::{EditBench, EditTimes};
 use super::dialogs::NativeFileDialogs;
 use super::error::GuiError;
 use super::steps::{Step, counted_step};
@@ -31,6 +32,8 @@ pub struct Options {
     pub steps: Option<String>,
     /// Turn the first view for this many frames and report.
     pub bench_orbit: Option<u32>,
+    /// Select and drag bodies for this many frames each and report.
+    pub bench_edit: Option<u32>,
 }
 
 /// What the window measured.
@@ -40,6 +43,8 @@ pub struct Report {
     pub first_frame_s: f64,
     /// Sorted times from frame to frame while the view turned, s.
     pub orbit_s: Vec<f64>,
+    /// Of frames in which something was selected or dragged.
+    pub edits: Option<EditTimes>,
     /// Repaints in two seconds in which nothing happened.
     pub idle_repaints: u64,
     failure: Option<Failure>,
@@ -56,6 +61,9 @@ enum Failure {
 
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(edits) = &self.edits {
+            return write!(f, "first frame after {:.2} s; {edits}", self.first_frame_s);
+        }
         let at = |share: f64| {
             let index = (self.orbit_s.len().saturating_sub(1) as f64 * share) as usize;
             1e3 * self.orbit_s.get(index).copied().unwrap_or_default()
@@ -78,7 +86,8 @@ pub fn run(options: Options) -> Result<Report, GuiError> {
     let report = Arc::new(Mutex::new(Report::default()));
     let script = Script::new(&options, called, report.clone())?;
     check_screenshot(&options)?;
-    let scripted = options.screenshot.is_some() || options.bench_orbit.is_some();
+    let scripted =
+        options.screenshot.is_some() || options.bench_orbit.is_some() || options.bench_edit.is_some();
     let size = options.window_size.unwrap_or([1360, 860]).map(|side| side as f32);
     let viewport = egui::ViewportBuilder::default()
         .with_app_id("polyscene")
@@ -148,6 +157,7 @@ pub(super) struct Script {
     steps: VecDeque<(Step, String)>,
     screenshot: Option<PathBuf>,
     bench: Option<Bench>,
+    edits: Option<EditBench>,
     wait_until: Option<Instant>,
     report: Arc<Mutex<Report>>,
 }
@@ -187,6 +197,7 @@ impl Script {
             steps,
             screenshot: options.screenshot.clone(),
             bench,
+            edits: options.bench_edit.map(EditBench::new),
             wait_until: None,
             report,
         })
@@ -219,12 +230,18 @@ impl App {
 
     /// Whether there is something left to do.
     fn script_goes_on(&mut self, ctx: &Context, script: &mut Script) -> bool {
-        if script.steps.is_empty() && script.screenshot.is_none() && script.bench.is_none() {
+        let is_done = script.steps.is_empty()
+            && script.screenshot.is_none()
+            && script.bench.is_none()
+            && script.edits.is_none();
+        if is_done {
             return false;
         }
         let answered = !self.session().awaits_simulation();
         let busy =
             script.waits_for_simulation(answered) || self.accuracy.is_running() || self.dialogs.are_working();
+        // A person who drags does not wait for the simulation.
+        let busy = busy && !script.edits.as_ref().is_some_and(EditBench::has_begun);
         if busy || script.wait_until.is_some_and(|until| Instant::now() < until) {
             ctx.request_repaint_after(Duration::from_millis(10));
             return true;
@@ -260,6 +277,14 @@ impl App {
                 report.orbit_s.sort_by(f64::total_cmp);
                 report.idle_repaints = idle;
             });
+        }
+        if let Some(edits) = &mut script.edits
+            && !self.bench_edits(ctx, edits)
+        {
+            return true;
+        }
+        if let Some(edits) = script.edits.take() {
+            script.note(|report| report.edits = Some(edits.finish()));
         }
         if let Some(reason) = self.errors_of_scene() {
             // The picture shows them, but no script should take them for a success.

@@ -5,6 +5,7 @@ mod accuracy;
 mod app;
 mod background;
 mod badge;
+mod bench;
 mod colors;
 mod context;
 mod dialogs;

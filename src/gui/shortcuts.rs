@@ -52,6 +52,8 @@ fn repeats(command: Command) -> bool {
                 | SessionCommand::Travel(
                     TravelCommand::NextEventOfSelection | TravelCommand::EventBackOfSelection
                 )
+                | SessionCommand::MoveUp
+                | SessionCommand::MoveDown
                 | SessionCommand::Undo
                 | SessionCommand::Redo
         )
@@ -92,6 +94,8 @@ fn egui_key(key: Key) -> Option<egui::Key> {
         Key::Escape => Some(egui::Key::Escape),
         Key::End => Some(egui::Key::End),
         Key::Home => Some(egui::Key::Home),
+        Key::Up => Some(egui::Key::ArrowUp),
+        Key::Down => Some(egui::Key::ArrowDown),
         Key::Function(n) => egui::Key::from_name(&format!("F{n}")),
     }
 }

@@ -31,7 +31,7 @@ use diagnostic::shown;
 
 pub use diagnostic::{Diagnostic, Severity, escaped, shown_path};
 pub use document::Document;
-pub use edit::{BodyChange, BodyCopy, Edit, EditError, Edited, ForceChange, Touched};
+pub use edit::{BodyChange, BodyCopy, Edit, EditError, Edited, ForceChange, Side, Touched};
 pub use euler::euler_near;
 pub use foreign::Foreign;
 pub use names::Names;

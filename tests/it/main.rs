@@ -71,6 +71,8 @@ mod gui_gizmo;
 mod gui_heap;
 // Pictures of the window: its views are drawn, and only when they change.
 mod gui_picture;
+// The order of the scene tree, by mouse and keyboard.
+mod gui_order;
 // The real program in a real window: open, edit, step, save, close; and without a display.
 mod gui_real;
 // The window's content without a window.
@@ -117,6 +119,8 @@ mod scene_edit;
 mod scene_schema;
 // Files: every sample, every encoding, what saving does to the disk.
 mod scene_files;
+// Elements that change their order, with their comments.
+mod scene_order;
 // One small file per rule of the reader, and what is said about each.
 mod scene_invalid;
 // Any bytes, any edits, any numbers.

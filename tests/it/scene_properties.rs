@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use polyscene::scene::{
-    Body, BodyChange, Document, Edit, ForceChange, Motion, NodeKey, Roughness, Shape, SimParams,
+    Body, BodyChange, Document, Edit, ForceChange, Motion, NodeKey, Roughness, Shape, Side, SimParams,
 };
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -146,7 +146,7 @@ struct Step {
 
 fn step() -> impl Strategy<Value = Step> {
     let number = prop_oneof![Just(0.0), Just(1.0), Just(0.1), -1e3..1e3, Just(1e-300), Just(f64::NAN)];
-    (any::<Index>(), 0..23_u8, number, "[ -~\n\té<&\"']{0,8}").prop_map(|(which, kind, number, text)| Step {
+    (any::<Index>(), 0..24_u8, number, "[ -~\n\té<&\"']{0,8}").prop_map(|(which, kind, number, text)| Step {
         which,
         kind,
         number,
@@ -185,6 +185,10 @@ impl Step {
             19 => body(BodyChange::Tangential(number)),
             20 => body(BodyChange::RollingFriction(number)),
             21 => body(BodyChange::Spin(vector)),
+            22 => {
+                let side = if number > 0.0 { Side::Before } else { Side::After };
+                Edit::Reorder { keys: all.into_iter().step_by(2).collect(), side, anchor: key }
+            }
             _ => Edit::AddBody(Box::new(Body {
                 key: NodeKey::default(),
                 id: 1,

@@ -1,13 +1,13 @@
-//! Rows of the tree that are dragged onto others: into groups, and out of them.
+//! Rows of the tree that are dragged: between others, into groups, and out of them.
 
-use egui::{Align2, FontId, Id, LayerId, Order, Response, Stroke, StrokeKind, Ui, vec2};
+use egui::{Align2, FontId, Id, LayerId, Order, Rect, Response, Stroke, StrokeKind, Ui, vec2};
 
 use super::Tree;
 use crate::design::{self, Eye, Given, Plan};
 use crate::editor::Action;
 use crate::gui::colors::tones;
 use crate::gui::context::{AppContext, Shown};
-use crate::scene::NodeKey;
+use crate::scene::{Edit, NodeKey, Side};
 
 /// What is being dragged.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,8 +17,13 @@ pub(super) enum Dragged {
     Group(String),
 }
 
-/// The group that something dropped here goes into; `None` is outside of all groups.
-pub(super) struct Target(pub Option<String>);
+/// Where something that is dropped here goes.
+pub(super) enum Target {
+    /// `None` is outside of all groups.
+    Group(Option<String>),
+    /// Before or after a row, and into its group.
+    Beside { key: NodeKey, side: Side, group: Option<String> },
+}
 
 impl Dragged {
     /// The selection, if this is in it, else this alone.
@@ -31,15 +36,19 @@ impl Dragged {
     fn plan(&self, context: &AppContext<'_>, target: &Target) -> Option<Plan> {
         let scene = context.scene()?;
         let given = |keys| Given { scene, keys, eye: Eye::default() };
-        let plan = match self {
-            Self::Things(keys) => design::regroup(&given(keys), target.0.as_deref()),
-            Self::Group(path) => {
-                let inside = target.0.as_deref().and_then(|to| to.strip_prefix(path.as_str()));
+        let plan = match (self, target) {
+            (Self::Things(keys), Target::Group(group)) => design::regroup(&given(keys), group.as_deref()),
+            (Self::Things(keys), Target::Beside { key, side, .. }) => {
+                design::put_beside(&given(keys), *side, *key)
+            }
+            (Self::Group(path), _) => {
+                let group = target.group();
+                let inside = group.and_then(|to| to.strip_prefix(path.as_str()));
                 if inside.is_some_and(|rest| rest.is_empty() || rest.starts_with('/')) {
                     return None;
                 }
                 let name = path.rsplit('/').next().unwrap_or_default();
-                let to = target.0.as_ref().map_or(name.to_owned(), |group| format!("{group}/{name}"));
+                let to = group.map_or(name.to_owned(), |group| format!("{group}/{name}"));
                 if to == *path {
                     return None;
                 }
@@ -51,14 +60,40 @@ impl Dragged {
 }
 
 impl Target {
-    /// Where a body or force is.
-    pub fn beside(shown: &Shown, key: NodeKey) -> Self {
+    /// Beside a body or force: before it over the upper half of its row, else after it.
+    pub fn beside(ui: &Ui, shown: &Shown, key: NodeKey, row: Rect) -> Self {
         let body = shown.body(key).and_then(|body| body.group.clone());
-        Self(body.or_else(|| shown.force(key).and_then(|force| force.group.clone())))
+        let group = body.or_else(|| shown.force(key).and_then(|force| force.group.clone()));
+        let at = ui.input(|input| input.pointer.interact_pos());
+        let side = if at.is_some_and(|at| at.y < row.center().y) { Side::Before } else { Side::After };
+        Self::Beside { key, side, group }
     }
 
-    fn words(&self) -> String {
-        self.0.as_ref().map_or("out of its group".to_owned(), |group| format!("into {group}"))
+    fn group(&self) -> Option<&str> {
+        match self {
+            Self::Group(group) | Self::Beside { group, .. } => group.as_deref(),
+        }
+    }
+
+    /// Shows on a row where the edits of a drop put things: a line between rows, or a frame around the row whose group
+    /// they go into.
+    fn show(&self, ui: &Ui, row: Rect, edits: &[Edit]) {
+        let is_order = |edit: &Edit| matches!(edit, Edit::Reorder { .. });
+        let pen = Stroke::new(1.5, tones(ui).accent);
+        match self {
+            Self::Beside { side, .. } if edits.iter().any(is_order) => {
+                let y = if *side == Side::Before { row.top() } else { row.bottom() };
+                ui.painter().hline(row.x_range(), y, Stroke::new(2.5, pen.color));
+            }
+            _ => drop(ui.painter().rect_stroke(row, 2.0, pen, StrokeKind::Inside)),
+        }
+        if !edits.iter().all(is_order) {
+            let group = self.group();
+            tell_beside_pointer(
+                ui,
+                &group.map_or("out of its group".to_owned(), |group| format!("into {group}")),
+            );
+        }
     }
 }
 
@@ -69,19 +104,17 @@ impl Tree {
         ui: &Ui,
         context: &AppContext<'_>,
         response: &Response,
-        target: Target,
+        target: &Target,
     ) {
         if let Some(dragged) = response.dnd_hover_payload::<Dragged>()
-            && dragged.plan(context, &target).is_some()
+            && let Some(plan) = dragged.plan(context, target)
         {
-            let pen = Stroke::new(1.5, tones(ui).accent);
-            ui.painter().rect_stroke(response.rect, 2.0, pen, StrokeKind::Inside);
-            tell_beside_pointer(ui, &target.words());
+            target.show(ui, response.rect, &plan.edits);
         }
         if let Some(dragged) = response.dnd_release_payload::<Dragged>()
-            && let Some(plan) = dragged.plan(context, &target)
+            && let Some(plan) = dragged.plan(context, target)
         {
-            self.open_named.extend(target.0);
+            self.open_named.extend(target.group().map(str::to_owned));
             context.outbox.act(Action::Apply(plan));
         }
     }

@@ -142,7 +142,7 @@ impl Tree {
         );
         if rest.is_positive() {
             let free = ui.interact(rest, ui.scope_id().with("below rows"), egui::Sense::click());
-            self.take_drop(ui, context, &free, Target(None));
+            self.take_drop(ui, context, &free, &Target::Group(None));
             if free.clicked() {
                 context.outbox.command(SessionCommand::SelectNone);
             }

@@ -153,7 +153,7 @@ impl Tree {
         }
         response.context_menu(|ui| super::rows::context_menu(ui, context));
         response.dnd_set_drag_payload(Dragged::Group(named.path.clone()));
-        self.take_drop(ui, context, &response, Target(Some(named.path.clone())));
+        self.take_drop(ui, context, &response, &Target::Group(Some(named.path.clone())));
         if toggle.clicked() {
             if !self.open_named.remove(&named.path) {
                 self.open_named.insert(named.path.clone());

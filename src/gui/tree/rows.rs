@@ -164,7 +164,7 @@ impl Tree {
             Row::Place(place) => place_row(ui, context, *place),
             Row::Group { group, count, shown, open } => {
                 let response = group_row(ui, *group, *count, *shown, *open);
-                self.take_drop(ui, context, &response, Target(None));
+                self.take_drop(ui, context, &response, &Target::Group(None));
                 if response.clicked() {
                     match self.closed.iter().position(|closed| closed == group) {
                         Some(index) => drop(self.closed.remove(index)),
@@ -241,7 +241,7 @@ impl Tree {
         }
         response.context_menu(|ui| context_menu(ui, context));
         response.dnd_set_drag_payload(Dragged::of(context, key));
-        self.take_drop(ui, context, &response, Target::beside(shown, key));
+        self.take_drop(ui, context, &response, &Target::beside(ui, shown, key, rect));
         if contact != ContactState::Flight {
             let (state, meaning) = (contact.name(), contact.meaning());
             response.clone().on_hover_text(format!("{}, {state}: {meaning}", looks.name));
@@ -429,7 +429,7 @@ fn group_row(ui: &mut Ui, group: Group, count: usize, shown: usize, open: bool) 
 }
 
 pub(super) fn context_menu(ui: &mut Ui, context: &AppContext<'_>) {
-    const COMMANDS: [Command; 11] = [
+    const COMMANDS: [Command; 13] = [
         Command::View(ViewCommand::FrameSelection),
         Command::Window(WindowCommand::Rename),
         Command::Session(SessionCommand::Cut),
@@ -439,6 +439,8 @@ pub(super) fn context_menu(ui: &mut Ui, context: &AppContext<'_>) {
         Command::Session(SessionCommand::Delete),
         Command::Session(SessionCommand::Group),
         Command::Session(SessionCommand::Ungroup),
+        Command::Session(SessionCommand::MoveUp),
+        Command::Session(SessionCommand::MoveDown),
         Command::Session(SessionCommand::Hide),
         Command::Session(SessionCommand::Lock),
     ];

@@ -194,7 +194,9 @@ impl Pane {
         });
         let of_view = ui.input(|input| input.modifiers.alt) || scenery.context.session.selection().is_empty();
         let fixed = self.camera.projection == Projection::Orthographic && self.camera.axis_view().is_some();
-        if !of_view {
+        // With Ctrl they order the tree.
+        let of_tree = ui.input(|input| input.modifiers.command);
+        if !of_view && !of_tree {
             self.nudge(scenery, snap_step(&self.camera, viewport), across, up);
         } else if fixed {
             self.camera.pan(DVec2::new(-across, up) * 30.0, f64::from(response.rect.height()));

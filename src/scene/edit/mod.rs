@@ -4,6 +4,7 @@ mod body;
 mod compose;
 mod cosmetic;
 mod force;
+mod order;
 mod patch;
 mod pen;
 mod settings;
@@ -51,10 +52,24 @@ pub enum Edit {
     Delete {
         keys: Vec<NodeKey>,
     },
+    /// Puts bodies or forces elsewhere in the list of the file, in the order they have, with the comments about them.
+    /// What they mean stays the same to the bit.
+    Reorder {
+        keys: Vec<NodeKey>,
+        side: Side,
+        /// One of the same list; it may be among those that move.
+        anchor: NodeKey,
+    },
     /// Gives a fresh UserID to every body (and force) whose id an earlier one has.
     MakeIdsUnique,
     /// Several edits as one.
     All(Vec<Edit>),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    Before,
+    After,
 }
 
 /// A body to copy, and what is different about the copy.

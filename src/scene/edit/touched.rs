@@ -12,7 +12,7 @@ pub struct Touched {
     pub keys: BTreeSet<NodeKey>,
     /// Map, time speed or solver.
     pub settings: bool,
-    /// What is no part of the scene: saved viewpoints.
+    /// What the simulation does not see: saved viewpoints, the order in the file.
     pub cosmetics: bool,
 }
 

@@ -10,7 +10,7 @@ use crate::scene::document::Content;
 use crate::scene::ids::Ids;
 use crate::scene::locate::{self, Index, List};
 use crate::scene::rules::{self, Range};
-use crate::scene::tree::{Child, Children, Element, View, tag};
+use crate::scene::tree::{Child, Children, Element, tag};
 use crate::scene::{Document, Names, NodeKey, number, viewpoint};
 
 /// Children of the root and of `Simulation`, in the order in which they are written.
@@ -101,6 +101,7 @@ impl<'d> Work<'d> {
             Edit::Duplicate { keys, offset } => self.duplicate(keys, *offset),
             Edit::CopyBodies(copies) => self.copy_bodies(copies),
             Edit::Delete { keys } => self.delete(keys),
+            Edit::Reorder { keys, side, anchor } => self.reorder(keys, *side, *anchor),
             Edit::MakeIdsUnique => self.make_ids_unique(),
             Edit::All(edits) => self.apply_all(edits),
         }
@@ -222,9 +223,15 @@ impl<'d> Work<'d> {
 
     /// The elements of a list.
     pub fn items(&self, list: List) -> Vec<Arc<Element>> {
+        self.items_with_places(list).into_iter().map(|(_, item)| item).collect()
+    }
+
+    /// The elements of a list, with their places among its children.
+    pub fn items_with_places(&self, list: List) -> Vec<(usize, Arc<Element>)> {
         let root = locate::root(&self.top, &self.pen.source.text);
         let el = root.and_then(|root| list.find(root));
-        el.into_iter().flat_map(View::elements).map(|item| item.node.clone()).collect()
+        let children = el.into_iter().flat_map(|el| el.node.children.iter().enumerate());
+        children.filter_map(|(at, child)| Some((at, child.element()?.clone()))).collect()
     }
 
     /// The ids in use, including those that the reader gives to elements without.
