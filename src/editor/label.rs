@@ -101,7 +101,7 @@ fn collect_subjects(edit: &Edit, subjects: &mut BTreeSet<NodeKey>) {
     match edit {
         Edit::Body { key, .. } | Edit::Force { key, .. } => drop(subjects.insert(*key)),
         Edit::Duplicate { keys, .. } | Edit::Delete { keys } | Edit::Reorder { keys, .. } => {
-            subjects.extend(keys)
+            subjects.extend(keys);
         }
         Edit::CopyBodies(copies) => subjects.extend(copies.iter().map(|copy| copy.of)),
         Edit::All(edits) => edits.iter().for_each(|edit| collect_subjects(edit, subjects)),

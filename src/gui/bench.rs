@@ -84,7 +84,7 @@ impl App {
         }
         if task != Task::Select && nth + 1 == bench.frames {
             self.perform(Action::EndGesture);
-            self.perform(Action::Command(SessionCommand::Undo.into()));
+            self.perform(Action::Command(SessionCommand::Undo));
         }
         ctx.request_repaint();
         false
