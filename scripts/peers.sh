@@ -31,10 +31,10 @@ fi
 program=${CARGO_TARGET_DIR:-$here/target}/release/polyscene
 cargo run --locked --release -- --case friction --write "$work" >/dev/null
 
-# fetch PACKAGE MODULE: into a virtual environment.
+# fetch PACKAGE MODULE: into a virtual environment. Isolated, for folders beside this one have the names of the modules.
 fetch() {
   [ -x "$work/venv/bin/python" ] || python3 -m venv "$work/venv" || return 1
-  "$work/venv/bin/python" -c "import $2" 2>/dev/null || "$work/venv/bin/pip" install --quiet "$1"
+  "$work/venv/bin/python" -I -c "import $2" 2>/dev/null || "$work/venv/bin/pip" install --quiet "$1"
 }
 
 for peer in 'mujoco mujoco mujoco/rolling.py' 'pooltool-billiards pooltool pooltool/shots.py'; do
