@@ -32,6 +32,7 @@ window building '' 'build:room,build:rack;Ball radius=0.3;Cue ball=1,view_perspe
 window parts '' 'build:table,build:funnel;Place x=2;Place z=2,build:stairs;Place x=7.5;Place z=2,build:pegboard;Place x=2.5;Place z=8,build:container;Place x=7.5;Place z=7.5,build:orbit,select_none,view_perspective,maximize_view'
 window part-dialog '' 'build:room,select_none,rack'
 window handles thesis-appendix-2 'select:28100,tool_turn,maximize_view'
+window measuring billiards 'dt:1/10,step_forward*3,select:Left cushion,select:Stun,select:Stun object,view_top,maximize_view'
 window export drag 'export:sdf'
 window xml bounce 'show_xml,select:Ball'
 window timeline thesis-appendix-2 'dt:1/20,step_forward*80,add_bookmark,select:15921,event_back_of_selection*4,overlay:trails'

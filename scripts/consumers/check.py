@@ -168,6 +168,14 @@ def check_mujoco(program, work, scenes):
         rolling(mujoco, program, work, one, other)
 
 
+def started(mujoco, path):
+    """A model with its state at the start."""
+    model = mujoco.MjModel.from_xml_path(str(path))
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, 0)
+    return model, data
+
+
 def foreign(mujoco, program, work):
     """A file of MuJoCo's own kind: what the program reads is what MuJoCo makes of it, the scene moved as a whole."""
     source, path = HERE.parents[1] / "scenes/foreign/balls.mjcf.xml", work / "foreign.xml"
@@ -175,9 +183,7 @@ def foreign(mujoco, program, work):
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode != 0:
         return fail(f"{source}: import: {done.stderr}")
-    model = mujoco.MjModel.from_xml_path(str(source))
-    data = mujoco.MjData(model)
-    mujoco.mj_resetDataKeyframe(model, data, 0)
+    model, data = started(mujoco, source)
     mujoco.mj_forward(model, data)
     is_ball = lambda geom: model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_SPHERE and model.geom_contype[geom]
     geoms = [geom for geom in range(model.ngeom) if is_ball(geom)]
@@ -198,9 +204,7 @@ def foreign(mujoco, program, work):
 
 def flight(mujoco, program, work, scene):
     """A second without impacts."""
-    model = mujoco.MjModel.from_xml_path(str(work / f"{scene.stem}.mjcf.xml"))
-    data = mujoco.MjData(model)
-    mujoco.mj_resetDataKeyframe(model, data, 0)
+    model, data = started(mujoco, work / f"{scene.stem}.mjcf.xml")
     steps = round(1.0 / model.opt.timestep)
     for _ in range(steps):
         mujoco.mj_step(model, data)
@@ -231,9 +235,7 @@ def bounce(mujoco, program, work, one, other):
     scene.write_text(BOUNCE.format(one, other))
     if not export(program, scene, "mjcf", path):
         return
-    model = mujoco.MjModel.from_xml_path(str(path))
-    data = mujoco.MjData(model)
-    mujoco.mj_resetDataKeyframe(model, data, 0)
+    model, data = started(mujoco, path)
     fastest, highest = 0.0, 0.0
     while data.time < 1.2 and (data.qvel[2] <= 0 or data.ncon > 0):
         mujoco.mj_step(model, data)
@@ -265,9 +267,7 @@ def rolling(mujoco, program, work, one, other):
     scene.write_text(ROLLING.format(one, other))
     if not export(program, scene, "mjcf", path):
         return
-    model = mujoco.MjModel.from_xml_path(str(path))
-    data = mujoco.MjData(model)
-    mujoco.mj_resetDataKeyframe(model, data, 0)
+    model, data = started(mujoco, path)
     while data.time < 1.0:
         mujoco.mj_step(model, data)
     expected = math.sqrt(one * other)

@@ -4,9 +4,8 @@
 use super::frame::Jump;
 use crate::sim::{Event, Simulation};
 
-/// Adding energies up costs a look at all bodies: with more than this it is done after as many events as there are bodies,
-/// for less than a hundredth of what these cost.
-const BODIES_AT_EVERY_EVENT: u64 = 8;
+/// Adding energies up costs a look at all bodies: with more than this, not every event is looked at.
+const BODIES_PER_EVENT: u64 = 4;
 
 #[derive(Clone, Debug, Default)]
 pub(super) struct Drift {
@@ -26,7 +25,7 @@ impl Drift {
 
     pub(super) fn note(&mut self, simulation: &Simulation, event: &Event) {
         self.since += 1;
-        if self.bodies > BODIES_AT_EVERY_EVENT && self.since < self.bodies {
+        if self.since * BODIES_PER_EVENT < self.bodies {
             return;
         }
         self.bodies = simulation.dynamic_count() as u64;

@@ -252,7 +252,7 @@ fn torque_impulse(model: &Model, state: &State, body: u32, time: f64) -> DVec3 {
 }
 
 /// Acceleration by the forces that do not dissipate, m/s².
-fn undamped(model: &Model, body: u32, time: f64, x: DVec3) -> DVec3 {
+pub(super) fn undamped(model: &Model, body: u32, time: f64, x: DVec3) -> DVec3 {
     let subject = model.subject(body, time, Place::exact(x), DVec3::ZERO);
     let lasting = model.forces.iter().filter(|force| !force.law.dissipates());
     lasting.map(|force| force.law.force(&subject)).sum::<DVec3>() / subject.mass

@@ -57,7 +57,6 @@ pub(super) fn compile(scene: &Scene, method: Method) -> Result<(Model, Vec<Origi
         grid,
         static_tiles,
         dense_step: 0.0,
-        smallest_radius: f64::INFINITY,
         plan: Plan::default(),
         start_warnings: Vec::new(),
     };

@@ -21,8 +21,6 @@ pub(super) struct Model {
     pub static_tiles: StaticTiles,
     /// Step of stepped groups, s; 0 where the scene can have none.
     pub dense_step: f64,
-    /// Of the moving bodies, m; where there can be stepped groups.
-    pub smallest_radius: f64,
     pub plan: Plan,
     pub start_warnings: Vec<Diagnostic>,
 }

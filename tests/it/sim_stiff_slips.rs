@@ -1,6 +1,5 @@
 //! Friction where it is stiff, from seeds: coefficients up to 1000, balls down to a tenth of a millimetre, on faces, fixed balls,
-//! edges and in grooves, also in air and, but for edges, with rolling friction: there bodies are stepped, leave and are stepped
-//! again.
+//! edges and in grooves, also in air and with rolling friction: there bodies are stepped, leave and are stepped again.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -28,10 +27,7 @@ fn scene(support: Support, random: &mut Random) -> Scene {
     let radius = 10.0_f64.powf(random.range(-4.0, -0.5));
     let law = Roughness {
         friction: 10.0_f64.powf(random.range(-2.0, 3.0)),
-        rolling: match support {
-            Support::Edge => 0.0,
-            _ => [0.0, 10.0_f64.powf(random.range(-3.0, -1.0))][random.below(2)],
-        },
+        rolling: [0.0, 10.0_f64.powf(random.range(-3.0, -1.0))][random.below(2)],
         tangential: [0.0, random.unit()][random.below(2)],
     };
     let speed = (GRAVITY * radius).sqrt() * 10.0_f64.powf(random.range(-4.0, 1.0));

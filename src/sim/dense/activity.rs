@@ -28,13 +28,10 @@ pub(in crate::sim) fn note_impact(model: &Model, state: &mut State, body: u32, t
 
 /// Notes that lossy bodies were resolved or integrated together.
 pub(in crate::sim) fn note_work(model: &Model, state: &mut State, bodies: &[u32], time: f64) {
-    if state.dense.is_none() {
-        return;
-    }
-    let steps: Vec<f64> = bodies.iter().map(|body| step_of(model, state, *body, time)).collect();
-    let Some(dense) = &mut state.dense else { return };
     let size = bodies.len() as f64;
-    for (body, step) in bodies.iter().zip(steps) {
+    for body in bodies {
+        let step = step_of(model, state, *body, time);
+        let Some(dense) = &mut state.dense else { return };
         let work = &mut dense.activity[*body as usize].work;
         work.add(WORK_OF_CUBE * size * size * size, time, HALF_LIFE_OF_WORK * step);
     }
@@ -66,7 +63,7 @@ pub(in crate::sim) fn least_elastic_crowd(
 
 /// The step of a body where it is, s.
 fn step_of(model: &Model, state: &State, body: u32, time: f64) -> f64 {
-    if model.is_ballistic() { model.dense_step } else { step_at(model, state.position(body, time)) }
+    if model.is_ballistic() { model.dense_step } else { step_at(model, body, state.position(body, time)) }
 }
 
 /// How many bodies must move together that are struck this often.

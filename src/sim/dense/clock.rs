@@ -3,13 +3,13 @@
 use glam::DVec3;
 
 use super::tolerance::{FALL_IN_A_STEP, MOST_HALVINGS_BY_PULL, SHORTEST_STEP, WAY_IN_A_STEP};
+use crate::sim::books::undamped;
 use crate::sim::force::Law;
 use crate::sim::model::Model;
 use crate::sim::place::Place;
 
 /// Sets the step of groups: `at` gives where the bodies are and how fast.
 pub(in crate::sim) fn set_step(model: &mut Model, at: impl Fn(u32) -> (DVec3, DVec3)) {
-    model.smallest_radius = model.present().map(|body| model.radius(body)).fold(f64::INFINITY, f64::min);
     model.dense_step = step_length(model, at);
     model.plan.group_step = model.dense_step;
 }
@@ -22,7 +22,7 @@ fn step_length(model: &Model, at: impl Fn(u32) -> (DVec3, DVec3)) -> f64 {
     if model.params.dense_step > 0.0 {
         return model.params.dense_step;
     }
-    let smallest = model.smallest_radius;
+    let smallest = model.present().map(|body| model.radius(body)).fold(f64::INFINITY, f64::min);
     let (mut without, mut within, mut fastest) = (0.0_f64, 0.0_f64, 0.0_f64);
     for body in model.present() {
         let (x, v) = at(body);
@@ -47,32 +47,20 @@ fn step_length(model: &Model, at: impl Fn(u32) -> (DVec3, DVec3)) -> f64 {
     power_of_two_below(WAY_IN_A_STEP * smallest / fastest)
 }
 
-/// How often a step is halved for the pull of attractors at a place.
-pub(super) fn halvings_by_pull(model: &Model, x: DVec3) -> u8 {
+/// How often the step of a body is halved for the pull of attractors at a place.
+pub(super) fn halvings_by_pull(model: &Model, body: u32, x: DVec3) -> u8 {
     if model.params.dense_step > 0.0 || model.is_ballistic() {
         return 0;
     }
-    let pull = |law: &Law| match *law {
-        Law::Point { center, intensity } => {
-            let way = center - x;
-            let distance = way.length();
-            way * (intensity / (distance * distance * distance))
-        }
-        Law::Uniform { acceleration } => acceleration,
-        _ => DVec3::ZERO,
-    };
-    let felt = model.forces.iter().map(|force| pull(&force.law)).sum::<DVec3>().length();
-    let longest = fall_time(model.smallest_radius, felt);
-    let mut halvings = 0;
-    while halvings < MOST_HALVINGS_BY_PULL && halved(model.dense_step, halvings) > longest {
-        halvings += 1;
-    }
-    halvings
+    let longest = fall_time(model.bodies.range_of_radii().0, undamped(model, body, 0.0, x).length());
+    // At a centre the pull is not a number: the shortest step there too.
+    let is_short_enough = |halvings: &u8| halved(model.dense_step, *halvings) <= longest;
+    (0..MOST_HALVINGS_BY_PULL).find(is_short_enough).unwrap_or(MOST_HALVINGS_BY_PULL)
 }
 
 /// The longest step of a body at a place, s.
-pub(in crate::sim) fn step_at(model: &Model, x: DVec3) -> f64 {
-    halved(model.dense_step, halvings_by_pull(model, x))
+pub(in crate::sim) fn step_at(model: &Model, body: u32, x: DVec3) -> f64 {
+    halved(model.dense_step, halvings_by_pull(model, body, x))
 }
 
 /// s.

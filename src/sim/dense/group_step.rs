@@ -11,7 +11,7 @@ use super::membership::{Left, component, frozen_with, take_in};
 use super::rest::{freeze, is_still, leave, record_group};
 use super::solve::{Landing, find_contacts, solve_contacts};
 use super::start::read_bodies;
-use super::stepped::{Contact, FIXED, velocity};
+use super::stepped::{Contact, FIXED, Stepped, velocity};
 use super::tolerance::{
     MOST_ATTEMPTS, MOST_HALVINGS, MOST_HALVINGS_TO_CONVERGE, MOST_SWEEPS, TOUGH_STEPS, TURN_IN_A_STEP,
     WAY_OF_RADIUS,
@@ -22,13 +22,14 @@ use crate::sim::books::book_kick;
 use crate::sim::capture::{hold, is_swallowed};
 use crate::sim::event::EventKind;
 use crate::sim::fault::{Fault, fault};
-use crate::sim::geometry::{ball, contact_distance, gap_of, rubbing_of, target};
+use crate::sim::geometry::{ball, contact_distance, gap_of, rubbing_of, surface_of, target};
 use crate::sim::model::Model;
 use crate::sim::motion::{check, place};
 use crate::sim::neighbours::{predict_all, predict_pair, reach_of};
 use crate::sim::pair::Pair;
 use crate::sim::predict;
 use crate::sim::segment::Segment;
+use crate::sim::shape::Surface;
 use crate::sim::state::State;
 
 /// When the next step is due, s; infinite while nothing is stepped.
@@ -265,7 +266,7 @@ fn reached_frozen(
         let (x, v) = (path.position(time), path.velocity(time));
         let gap =
             (x - state.segments[other as usize].x).length() - model.radius(member.body) - model.radius(other);
-        let step = step_at(model, x);
+        let step = step_at(model, member.body, x);
         let way = step * (v.length() + step * path.segment.a.length());
         if gap <= 2.0 * way {
             numbers.insert(number);
@@ -421,7 +422,8 @@ fn note_friction(model: &Model, dense: &mut Dense, component: &Component, h: f64
     }
     let mut supports = vec![0_u32; slots.len()];
     for contact in work.contacts.iter().filter(|contact| contact.impulse > 0.0 && contact.b == FIXED) {
-        let is_followed = is_followed(model, dense.pairs[contact.listed as usize].pair);
+        let body = &work.bodies[contact.a as usize];
+        let is_followed = is_followed(model, body, dense.pairs[contact.listed as usize].pair);
         supports[contact.a as usize] += if is_followed { 1 } else { 2 };
     }
     for (slot, _) in slots.iter().zip(supports).filter(|(_, supports)| *supports > 1) {
@@ -431,9 +433,10 @@ fn note_friction(model: &Model, dense: &mut Dense, component: &Component, h: f64
 
 /// Whether what one ball does on a body that does not move is known from event to event: rolling friction is on a face alone,
 /// where nothing but uniform forces acts.
-fn is_followed(model: &Model, pair: Pair) -> bool {
-    let is_face = model.body(pair.b).shape.radius() == 0.0;
-    rubbing_of(model, pair).rolling == 0.0 || (is_face && model.is_ballistic())
+fn is_followed(model: &Model, body: &Stepped, pair: Pair) -> bool {
+    let other = pair.other(body.body);
+    let is_face = || other.is_static() && matches!(surface_of(model, other, body.x), Surface::Flat(_));
+    rubbing_of(model, pair).rolling == 0.0 || (model.is_ballistic() && is_face())
 }
 
 /// Books the friction that what does not move gave, and the angular momentum of all that it gave.

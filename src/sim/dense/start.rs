@@ -26,7 +26,7 @@ fn body_of(model: &Model, state: &State, member: &Member, time: f64) -> Stepped 
     let inverse_mass = state.inverse_mass(model, member.body);
     let is_held = inverse_mass == 0.0;
     let x = path.position(time);
-    let halvings_by_pull = halvings_by_pull(model, x);
+    let halvings_by_pull = halvings_by_pull(model, member.body, x);
     let step = halved(model.dense_step, halvings_by_pull);
     let v = if is_held { DVec3::ZERO } else { path.velocity(time) };
     let a = if inverse_mass > 0.0 { driven(model, member.body, (x, v), time, step) } else { DVec3::ZERO };

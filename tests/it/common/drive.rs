@@ -1,6 +1,6 @@
 //! Drives a simulation through a span of time in different ways, which must all give the same bits.
 
-use polyscene::scene::{ForceKind, Scene, Shape};
+use polyscene::scene::{Scene, Shape};
 use polyscene::sim::{BodyRef, BodyState, Event, EventKind, Simulation};
 use polyscene::study::Random;
 
@@ -108,16 +108,11 @@ pub struct Promise {
     pub overlap: f64,
     /// Climb of the total energy, J.
     pub climb: f64,
-    /// Of the energy's books.
-    pub residual: f64,
 }
-
-/// What a leapfrog that turns about an attractor by so much in a step may leave of the energy, (ωh)²/24.
-const RESIDUAL_OF_TURNS: f64 = 0.0125 * 0.0125 / 24.0;
 
 impl Promise {
     /// Of stepped groups: a thousandth of the smallest radius, and a hundredth of the work of moving the heaviest body
-    /// by its radius. Steps are exact to rounding where forces are the same everywhere.
+    /// by its radius.
     pub fn of_steps(sim: &Simulation, scene: &Scene) -> Self {
         let radii = scene.bodies.iter().filter_map(|body| match (&body.shape, body.is_dynamic()) {
             (Shape::Sphere { radius }, true) => Some((body.key, *radius)),
@@ -129,9 +124,7 @@ impl Promise {
             let force = sim.find(key).map_or(0.0, |body| sim.total_force(body).length());
             work = work.max(force * radius);
         }
-        let is_pulled = scene.forces.iter().any(|force| matches!(force.kind, ForceKind::GravityPoint { .. }));
-        let residual = if is_pulled { RESIDUAL_OF_TURNS } else { 1e-9 };
-        Self { overlap: 1e-3 * smallest, climb: 1e-2 * work, residual }
+        Self { overlap: 1e-3 * smallest, climb: 1e-2 * work }
     }
 }
 
