@@ -171,6 +171,6 @@ fn scaled_scenes_give_the_scaled_bits_3() {
 
 #[test]
 fn large_scenes_give_the_scaled_bits() {
-    // Until the heaps that are poured are stepped.
-    assert_scales(scenes(true).into_iter(), 0.25);
+    // What is poured is stepped from 0.11 s on.
+    assert_scales(scenes(true).into_iter(), 0.125);
 }
