@@ -2,6 +2,7 @@
 //! Knows no widgets and no OpenGL. [`Session`] holds it all; panels read it and send it [`Action`]s.
 
 mod action;
+mod background;
 mod building;
 mod catalog;
 mod catalog_views;
@@ -55,6 +56,7 @@ mod trouble_list;
 mod verification;
 
 pub use action::Action;
+pub use background::{Background, GoOn, Lost};
 pub use catalog::{COMMANDS, info};
 pub use command::{
     Addition, Command, Key, Menu, Outcome, SessionCommand, Shortcut, TravelCommand, ViewCommand,
