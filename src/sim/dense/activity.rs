@@ -4,8 +4,8 @@
 use super::clock::step_at;
 use super::data::{Activity, Decaying};
 use super::tolerance::{
-    CROWDED, HALF_LIFE, HALF_LIFE_OF_WORK, LEAST_STRUCK, MOST_AT_ONE_INSTANT, SMALLEST_CROWD,
-    SMALLEST_ELASTIC_CROWD, STRUCK_OFTEN, TOO_MUCH_WORK, WORK_OF_CUBE,
+    CROWDED, CROWDED_IN_FIELDS, HALF_LIFE, HALF_LIFE_OF_WORK, LEAST_STRUCK, MOST_AT_ONE_INSTANT,
+    SMALLEST_CROWD, SMALLEST_ELASTIC_CROWD, STRUCK_OFTEN, TOO_MUCH_WORK, WORK_OF_CUBE,
 };
 use crate::sim::model::Model;
 use crate::sim::state::State;
@@ -46,7 +46,7 @@ pub(in crate::sim) fn least_crowd(model: &Model, state: &State, body: u32, time:
     if is_stuck || work.at(time, HALF_LIFE_OF_WORK * step) >= TOO_MUCH_WORK {
         return Some(2);
     }
-    crowd(lossy.at(time, HALF_LIFE * step))
+    crowd(model, lossy.at(time, HALF_LIFE * step))
 }
 
 /// The same for a body of an elastic pair: by all its impacts, for elastic ones come without end too.
@@ -58,7 +58,7 @@ pub(in crate::sim) fn least_elastic_crowd(
 ) -> Option<usize> {
     let impacts = &state.dense.as_ref()?.activity[body as usize].impacts;
     let half_life = HALF_LIFE * step_of(model, state, body, time);
-    crowd(impacts.at(time, half_life)).map(|least| least.max(SMALLEST_ELASTIC_CROWD))
+    crowd(model, impacts.at(time, half_life)).map(|least| least.max(SMALLEST_ELASTIC_CROWD))
 }
 
 /// The step of a body where it is, s.
@@ -67,11 +67,13 @@ fn step_of(model: &Model, state: &State, body: u32, time: f64) -> f64 {
 }
 
 /// How many bodies must move together that are struck this often.
-fn crowd(struck: f64) -> Option<usize> {
+fn crowd(model: &Model, struck: f64) -> Option<usize> {
     if struck >= STRUCK_OFTEN {
         return Some(SMALLEST_CROWD);
     }
-    (struck >= LEAST_STRUCK).then(|| (CROWDED / struck).ceil() as usize)
+    let crowded = if model.is_ballistic() { CROWDED } else { CROWDED_IN_FIELDS };
+    let least_struck = LEAST_STRUCK * crowded / CROWDED;
+    (struck >= least_struck).then(|| (crowded / struck).ceil() as usize)
 }
 
 impl Decaying {

@@ -49,9 +49,9 @@ pub(in crate::sim) struct Member {
     pub margin: f64,
     /// Margin that it needs in the next list at least, m.
     pub widened: f64,
-    /// How often its step is halved, and whether it took few sweeps.
+    /// How often its step is halved to converge, and how many steps in a row since then took few sweeps.
     pub halvings: u8,
-    pub is_easy: bool,
+    pub easy: u8,
     /// In how many steps its contacts are to be solved at once before sweeps are tried again.
     pub tough: u8,
     /// Whether another dynamic body is listed with it.
@@ -102,6 +102,9 @@ pub(super) struct Work {
     /// s.
     pub end: f64,
     pub halvings: u8,
+    /// How many of them it began with, and how many of those are kept from steps before, to converge.
+    pub first_halvings: u8,
+    pub kept_halvings: u8,
     /// Whether sweeps do not get there, so that it is solved at once.
     pub is_tough: bool,
     /// Whether it lies still and comes to rest instead.

@@ -13,8 +13,8 @@ use super::solve::{Landing, find_contacts, solve_contacts};
 use super::start::read_bodies;
 use super::stepped::{Contact, FIXED, Stepped, velocity};
 use super::tolerance::{
-    MOST_ATTEMPTS, MOST_HALVINGS, MOST_HALVINGS_TO_CONVERGE, MOST_SWEEPS, TOUGH_STEPS, TURN_IN_A_STEP,
-    WAY_OF_RADIUS,
+    EASY_STEPS, MOST_ATTEMPTS, MOST_HALVINGS, MOST_HALVINGS_TO_CONVERGE, MOST_SWEEPS, TOUGH_STEPS,
+    TURN_IN_A_STEP, WAY_OF_RADIUS,
 };
 use crate::sim::account::angular;
 use crate::sim::body::BodyId;
@@ -278,7 +278,7 @@ fn reached_frozen(
 /// Solves the step of a component, halved as often as it takes.
 fn propose(model: &Model, state: &mut State, dense: &Dense, component: &mut Component, time: f64) {
     let by_pull = component.work.bodies.iter().map(|body| body.halvings_by_pull).max().unwrap_or(0);
-    component.work.halvings = halvings(model, dense, component, by_pull);
+    begin_halved(model, dense, component, by_pull);
     component.work.is_tough = tough_steps(dense, component) > 0;
     loop {
         let work = &mut component.work;
@@ -311,12 +311,13 @@ fn tough_steps(dense: &Dense, component: &Component) -> u8 {
     component.slots.iter().map(|slot| dense.members[*slot as usize].tough).max().unwrap_or(0)
 }
 
-/// How often the step of a component must be halved at least: as often as the last, or once less after an easy one,
-/// so often as the pull of attractors wants it, and so often that nobody passes much of its radius in it.
-fn halvings(model: &Model, dense: &Dense, component: &Component, by_pull: u8) -> u8 {
+/// How often the step of a component must be halved at least: as often as steps before to converge, or once less after
+/// many easy ones, so often as the pull of attractors wants it, and so often that nobody passes much of its radius in it.
+fn begin_halved(model: &Model, dense: &Dense, component: &mut Component, by_pull: u8) {
     let members = component.slots.iter().map(|slot| &dense.members[*slot as usize]);
-    let of = |member: &Member| member.halvings.saturating_sub(u8::from(member.is_easy));
-    let mut halvings = members.map(of).max().unwrap_or(0).max(by_pull);
+    let kept = |member: &Member| member.halvings.saturating_sub(u8::from(member.easy >= EASY_STEPS));
+    let kept_halvings = members.map(kept).max().unwrap_or(0);
+    let mut halvings = kept_halvings.max(by_pull);
     let ways = component.work.bodies.iter().map(|body| model.dense_step * body.v.length() / body.radius);
     let stiffest = component.work.bodies.iter().map(|body| body.stiffness).fold(0.0, f64::max);
     // The part of a radius that is passed, and that of a turn.
@@ -325,7 +326,8 @@ fn halvings(model: &Model, dense: &Dense, component: &Component, by_pull: u8) ->
     while passed > f64::from(1_u32 << halvings) && halvings < by_pull + MOST_HALVINGS {
         halvings += 1;
     }
-    halvings
+    let work = &mut component.work;
+    (work.halvings, work.first_halvings, work.kept_halvings) = (halvings, halvings, kept_halvings);
 }
 
 /// Whether somebody would leave what the list covers; the next list will cover it.
@@ -359,14 +361,14 @@ fn carry_out(
     state.counters.steps += 1;
     state.counters.contacts += work.contacts.len() as u64;
     state.account.impact_losses.add(work.solution.loss);
-    let is_easy = work.solution.sweeps < MOST_SWEEPS / 4;
     let tough = match tough_steps(dense, component) {
         0 if work.is_tough => TOUGH_STEPS,
         left => left.saturating_sub(1),
     };
     for slot in slots {
         let member = &mut dense.members[*slot as usize];
-        (member.halvings, member.is_easy, member.is_stepped) = (work.halvings, is_easy, true);
+        note_length(member, work);
+        member.is_stepped = true;
         member.tough = tough;
         member.idle = member.idle.saturating_add(1);
     }
@@ -391,6 +393,15 @@ fn carry_out(
         place(model, state, body.body, segment, None);
     }
     Ok(())
+}
+
+/// Keeps how often a step had to be halved to converge.
+fn note_length(member: &mut Member, work: &Work) {
+    let before = member.halvings;
+    let had_to = work.halvings > work.first_halvings;
+    member.halvings = if had_to { work.halvings } else { work.kept_halvings };
+    let is_easy = member.halvings == before && work.solution.sweeps < MOST_SWEEPS / 4;
+    member.easy = if is_easy { member.easy.saturating_add(1) } else { 0 };
 }
 
 /// Keeps the forces for the next step, and who is pushed by another body.

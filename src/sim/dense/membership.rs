@@ -78,7 +78,7 @@ pub(super) fn take_in(state: &mut State, dense: &mut Dense, bodies: &[u32], time
             margin: 0.0,
             widened: 0.0,
             halvings: 0,
-            is_easy: true,
+            easy: 0,
             tough: 0,
             has_company: false,
             is_stepped: false,

@@ -23,6 +23,10 @@ pub(super) const MOST_HALVINGS_BY_PULL: u8 = 4;
 /// Halvings after which a step that does not converge is taken as it is: the residual is overlap, which is shown.
 pub(super) const MOST_HALVINGS_TO_CONVERGE: u8 = 4;
 
+/// A step that was halved to converge is doubled again after so many that took few sweeps: fewer try in vain what takes
+/// the most sweeps, more make short steps for longer.
+pub(super) const EASY_STEPS: u8 = 32;
+
 /// Whoever passes more than this part of its radius in a step needs shorter ones: the half-space that keeps bodies
 /// apart would be met beside the body.
 pub(super) const WAY_OF_RADIUS: f64 = 0.25;
@@ -44,8 +48,8 @@ pub(super) const MOST_ATTEMPTS: u32 = 8;
 /// Overlap from which bodies need not part, in radii: room to give back what the curvature of a way opened.
 pub(super) const ROOM: f64 = 4e-4;
 
-/// Within that room they part at this share of the speed at which they met. At 1 they tremble for ever, at 0 they stay
-/// where they overlap.
+/// Whoever meets slower than g·h parts at this share of the speed at which it met. At 1 heaps tremble for ever, and sweeps
+/// take hundreds where more contacts are closed than there are ways to move; at 0 they stay where they overlap.
 pub(super) const PARTING: f64 = 0.5;
 
 /// Bodies that meet slower than so many times g·h land: a bounce shorter than twice as many steps is not resolved.
@@ -123,7 +127,12 @@ pub(super) const SMALLEST_ELASTIC_CROWD: usize = 9;
 /// take longer than real time; four times as many, and they play at a third of it until they enter.
 pub(super) const CROWDED: f64 = 2048.0;
 
-/// Nobody looks for a crowd around a body that was struck less: in a gas that would be in vain each time.
+/// The same where ways are integrated: an impact costs four to ten times as much there, for each of its predictions is
+/// searched for on an integrated way, and a step hardly more.
+pub(super) const CROWDED_IN_FIELDS: f64 = 512.0;
+
+/// Nobody looks for a crowd around a body that was struck less, in fields by as much less as above: in a gas that would be
+/// in vain each time.
 pub(super) const LEAST_STRUCK: f64 = 4.0;
 
 /// Lossy impacts of one body at one instant from which its component is stepped, whatever the others say: no endless
