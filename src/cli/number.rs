@@ -9,6 +9,19 @@ pub fn seconds(text: &str) -> Result<f64, String> {
     if value > 0.0 { Ok(value) } else { Err("must be more than 0 seconds".into()) }
 }
 
+/// A part of something: a number or a fraction such as `1/2`, of any sign and size.
+pub(super) fn part(text: &str) -> Result<f64, String> {
+    let of = |text: &str| {
+        text.trim()
+            .parse::<f64>()
+            .map_err(|_| "expected a number or a fraction, such as 0.5 or 1/2".to_owned())
+    };
+    match text.split_once('/') {
+        Some((top, bottom)) => Ok(of(top)? / of(bottom)?),
+        None => of(text),
+    }
+}
+
 /// Seconds: a number of at most [`LATEST`], or a fraction such as `1/60`.
 pub(super) fn any_seconds(text: &str) -> Result<f64, String> {
     let value = match text.split_once('/') {

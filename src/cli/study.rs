@@ -51,6 +51,10 @@ pub struct StudyArgs {
     )]
     tolerances: Vec<f64>,
 
+    /// Steps of the groups of exact besides the scene's own, as parts of it: 1/2,1/4
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = number::part, allow_negative_numbers = true)]
+    group_steps: Vec<f64>,
+
     /// Timings of each run; the median counts
     #[arg(long, value_name = "N", default_value_t = Settings::default().repeat)]
     repeat: u32,
@@ -203,6 +207,7 @@ impl StudyArgs {
             methods: self.methods.clone(),
             dts: self.dt.clone(),
             tolerances: self.tolerances.clone(),
+            group_steps: self.group_steps.clone(),
             repeat: self.repeat,
             samples: self.samples,
             trusted_error: self.trusted_error,

@@ -1,4 +1,4 @@
-//! What is compared: a method with its Δt or its tolerance.
+//! What is compared: a method with its Δt, its tolerance or its group step.
 
 use super::text::{seconds, short};
 use crate::scene::Scene;
@@ -41,6 +41,8 @@ pub struct Candidate {
     pub dt: Option<f64>,
     /// Field tolerance; `None` is the scene's own.
     pub tolerance: Option<f64>,
+    /// Step of stepped groups, s; `None` is the scene's own.
+    pub group_step: Option<f64>,
 }
 
 impl Candidate {
@@ -49,6 +51,9 @@ impl Candidate {
         let mut scene = scene.clone();
         if let Some(tolerance) = self.tolerance {
             scene.params.field_tolerance = tolerance;
+        }
+        if let Some(step) = self.group_step {
+            scene.params.dense_step = step;
         }
         Simulation::with_method(&scene, self.method)
     }
@@ -69,6 +74,9 @@ impl Candidate {
         }
         if let Some(tolerance) = self.tolerance {
             label += &format!(", tolerance {}", short(tolerance));
+        }
+        if let Some(step) = self.group_step {
+            label += &format!(", group step {}", seconds(step));
         }
         label
     }

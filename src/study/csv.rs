@@ -10,7 +10,7 @@ const MORE: &str =
 
 /// The whole file, lines ended by a line feed, a decimal point, comma separated.
 pub fn csv(report: &StudyReport) -> String {
-    let mut text = "method,dt_s,tolerance".to_owned();
+    let mut text = "method,dt_s,tolerance,group_step_s".to_owned();
     for axis in AXES {
         text += ",";
         text += axis.id;
@@ -25,7 +25,12 @@ pub fn csv(report: &StudyReport) -> String {
 fn row(text: &mut String, point: &RunFigures, horizon: f64) {
     let number = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:e}"));
     let count = |value: Option<u64>| value.map_or(String::new(), |value| value.to_string());
-    let mut cells = vec![point.method.name().to_owned(), number(point.dt), number(point.tolerance)];
+    let mut cells = vec![
+        point.method.name().to_owned(),
+        number(point.dt),
+        number(point.tolerance),
+        number(point.group_step),
+    ];
     cells.extend(AXES.iter().map(|axis| number((axis.get)(point))));
     cells.extend([
         number(point.wall_range.map(|range| range[0])),

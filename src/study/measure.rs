@@ -144,6 +144,7 @@ impl<'a> ObservedRun<'a> {
             method: candidate.method,
             dt: candidate.dt,
             tolerance: candidate.tolerance,
+            group_step: candidate.group_step,
             reached: 0.0,
             stopped,
             wall_per_s: None,

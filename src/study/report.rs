@@ -18,7 +18,7 @@ pub struct StudyReport {
     /// `ballistic` or `field`.
     pub motion: String,
     pub horizon: Horizon,
-    /// In the order methods, Δt from coarse to fine, tolerance from coarse to fine.
+    /// In the order methods, Δt from coarse to fine, tolerance and group step from coarse to fine.
     pub points: Vec<RunFigures>,
     /// Ended before everything was done: what is there stands.
     pub cancelled: bool,
@@ -69,6 +69,8 @@ pub struct RunFigures {
     pub dt: Option<f64>,
     /// Field tolerance; `None` is the scene's own.
     pub tolerance: Option<f64>,
+    /// Step of stepped groups, s; `None` is the scene's own.
+    pub group_step: Option<f64>,
     /// Model time reached, s.
     pub reached: f64,
     /// Why it stopped before the end asked for.

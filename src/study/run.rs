@@ -103,15 +103,14 @@ fn candidates(compiled: &Simulation, scene: &Scene, settings: &StudySettings) ->
     dts.sort_by(|left, right| right.total_cmp(left));
     dts.dedup();
     for method in Method::ALL.into_iter().filter(|method| settings.methods.contains(method)) {
+        let plain = Candidate { method, dt: None, tolerance: None, group_step: None };
         if method.depends_on_dt() {
-            candidates.extend(dts.iter().map(|&dt| Candidate { method, dt: Some(dt), tolerance: None }));
+            candidates.extend(dts.iter().map(|&dt| Candidate { dt: Some(dt), ..plain }));
         } else {
             let tolerances = tolerances(compiled, scene, settings);
-            candidates.extend(tolerances.into_iter().map(|tolerance| Candidate {
-                method,
-                dt: None,
-                tolerance,
-            }));
+            candidates.extend(tolerances.into_iter().map(|tolerance| Candidate { tolerance, ..plain }));
+            let steps = group_steps(compiled, settings);
+            candidates.extend(steps.into_iter().map(|step| Candidate { group_step: Some(step), ..plain }));
         }
     }
     candidates
@@ -127,4 +126,15 @@ fn tolerances(compiled: &Simulation, scene: &Scene, settings: &StudySettings) ->
     tolerances.sort_by(|left, right| right.total_cmp(left));
     tolerances.dedup();
     tolerances.into_iter().map(Some).collect()
+}
+
+/// The group steps asked for, s, where anything can be stepped; coarse first. The scene's own is that of all other runs.
+fn group_steps(compiled: &Simulation, settings: &StudySettings) -> Vec<f64> {
+    let own = compiled.plan().group_step;
+    let mut parts = settings.group_steps.clone();
+    parts.retain(|part| *part != 1.0);
+    parts.sort_by(|left, right| right.total_cmp(left));
+    parts.dedup();
+    let steps = parts.into_iter().map(|part| part * own);
+    steps.filter(|step| *step > 0.0 && step.is_finite()).collect()
 }

@@ -108,7 +108,7 @@ pub struct CurvePoint {
     /// Wall time per simulated second, s.
     pub wall: f64,
     pub error: f64,
-    /// The Δt or the tolerance.
+    /// The Δt, the tolerance or the group step.
     pub label: String,
 }
 
@@ -117,8 +117,8 @@ pub fn series_of(report: &StudyReport, method: Method, axis: &Axis) -> Vec<Curve
     let of = report.points.iter().filter(|point| point.method == method);
     of.filter_map(|point| {
         let (wall, error) = (point.wall_per_s?, (axis.get)(point)?);
-        let label = match (point.dt, point.tolerance) {
-            (Some(dt), _) => seconds(dt),
+        let label = match (point.dt.or(point.group_step), point.tolerance) {
+            (Some(step), _) => seconds(step),
             (_, Some(tolerance)) => short(tolerance),
             _ => String::new(),
         };

@@ -14,6 +14,8 @@ pub struct StudySettings {
     pub dts: Vec<f64>,
     /// Field tolerances of `exact`, where the scene has fields. Empty: the scene's own alone.
     pub tolerances: Vec<f64>,
+    /// Steps of stepped groups of `exact` besides the scene's own, as parts of that.
+    pub group_steps: Vec<f64>,
     /// Timings of each run.
     pub repeat: u32,
     /// Samples of the whole run at which it is compared.
@@ -39,6 +41,7 @@ impl Default for StudySettings {
             methods: Method::ALL.to_vec(),
             dts: [15.0, 30.0, 60.0, 120.0, 240.0, 480.0, 960.0].map(|rate: f64| 1.0 / rate).to_vec(),
             tolerances: vec![1e-3, 1e-5, 1e-7, 1e-9, 1e-11],
+            group_steps: Vec::new(),
             repeat: 5,
             samples: 200,
             trusted_error: 1e-6,
@@ -91,6 +94,13 @@ pub const KNOBS: &[Knob] = &[
         unit: "",
         reason: "Field tolerances of exact, besides the scene's own. Without point gravity, drag or forces of \
                  your own they change nothing and are left out.",
+    },
+    Knob {
+        name: "group-steps",
+        label: "Group steps",
+        unit: "",
+        reason: "Steps of the groups of exact besides the scene's own, as parts of it: 1/2, 1/4 shows what the \
+                 step of a heap is worth. None, since most scenes step nothing; each is a run more.",
     },
     Knob {
         name: "repeat",
@@ -174,6 +184,9 @@ impl StudySettings {
         if !self.tolerances.iter().all(|tolerance| (1e-13..=1e-3).contains(tolerance)) {
             return refuse("tolerances", "must lie between 1e-13 and 1e-3");
         }
+        if !self.group_steps.iter().all(|part| (MOST_PART.recip()..=MOST_PART).contains(part)) {
+            return refuse("group-steps", "must lie between 1/1024 and 1024");
+        }
         if !(1..=1000).contains(&self.repeat) {
             return refuse("repeat", "must lie between 1 and 1000");
         }
@@ -198,6 +211,9 @@ impl StudySettings {
         self.until / f64::from(self.samples)
     }
 }
+
+/// Group steps of more than so many times the scene's own, or less than its inverse, are a slip of the hand.
+const MOST_PART: f64 = 1024.0;
 
 /// Steps are counted without gaps up to here, and nobody waits for more.
 const MOST_STEPS: f64 = 1e9;

@@ -56,6 +56,7 @@ pub fn row_heads() -> Vec<Head> {
         plain("method", "How it was stepped"),
         plain("Δt", "Step of the methods whose result depends on it"),
         plain("tolerance", "Field tolerance of exact, where the scene has fields"),
+        plain("group step", "Step of stepped groups of exact, where it is not the scene's own"),
     ];
     heads.extend(columns().map(|axis| Head { name: axis.column, unit: axis.unit, meaning: axis.meaning }));
     heads.extend([
@@ -79,6 +80,7 @@ pub fn row_cells(point: &RunFigures) -> Vec<String> {
         point.method.name().to_owned(),
         point.dt.map_or("–".into(), seconds),
         point.tolerance.map_or("–".into(), short),
+        point.group_step.map_or("–".into(), seconds),
     ];
     cells.extend(columns().map(|axis| number((axis.get)(point))));
     cells.extend([point.impacts.to_string(), count(point.missed), count(point.wrong)]);

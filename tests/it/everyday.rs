@@ -66,15 +66,11 @@ fn a_scene_comes_back_from_its_file() {
     }
 }
 
-/// Of `cluster` only two balls: more of them make the slow passes of a bare attractor's core.
 #[test]
 fn a_sample_of_small_scenes_meets_every_demand() {
     let effort = Effort { until: 1.0, most: 10.0 };
     for family in FAMILIES {
         for (n, e) in [(2, 0.0), (2, 0.5), (2, 1.0), (5, 0.1), (5, 0.7)] {
-            if family.name == "cluster" && n > 2 {
-                continue;
-            }
             let setup = Setup { family, n, e, seed: 1 };
             let outcome = judge(&setup, effort);
             assert_eq!(misses(&outcome), [], "{setup}: {outcome:?}");
@@ -100,6 +96,21 @@ fn mixed_masses_and_sizes_keep_apart() {
     let setup = Setup { family: family("mixed"), n: 50, e: 0.0, seed: 1 };
     let outcome = judge(&setup, Effort { until: 0.6, most: 30.0 });
     assert_eq!(misses(&outcome), [], "{setup}: {outcome:?}");
+}
+
+/// Symptom: a heap that all but rests took two hundred sweeps a step and halved every other one. Expected: it takes some
+/// thirty, and rests. Cause: contacts that overlap parted as fast as they met; 960 of them among 300 balls can only do
+/// that where the whole motion turns round.
+#[test]
+fn heaps_of_more_contacts_than_ways_to_move_come_to_rest() {
+    let scene = Setup { family: family("wedge"), n: 300, e: 0.3, seed: 1 }.scene();
+    let mut sim = Simulation::new(&scene).unwrap();
+    sim.begin(3.0);
+    sim.finish(&mut |_, _| {}).unwrap();
+    let counters = sim.counters();
+    assert!(sim.stepped().is_none(), "{:?}", sim.stepped());
+    assert!(counters.sweeps < 40 * counters.steps, "{counters:?}");
+    assert!(counters.halvings * 50 < counters.steps, "{counters:?}");
 }
 
 #[test]

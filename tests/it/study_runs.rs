@@ -4,10 +4,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use glam::{DVec3, dvec3};
 use polyscene::scene::{ForceKind, Scene};
-use polyscene::sim::Method;
+use polyscene::sim::{Method, Simulation};
 use polyscene::study::{
     AXES, Candidate, Control, HorizonCause, Limits, PairImpact, RunFigures, StudyProgress, StudyReport,
-    StudySettings, Truth, compare, csv, measure, run, svg, table,
+    StudySettings, Truth, compare, csv, measure, run, seconds, svg, table,
 };
 use quick_xml::events::Event;
 
@@ -86,7 +86,7 @@ fn wrong_laws_are_found_out() {
     let scene = load("bounce.xml");
     let settings = quick(10.0);
     let limits = Limits::of(&settings);
-    let candidate = Candidate { method: Method::Exact, dt: None, tolerance: None };
+    let candidate = Candidate { method: Method::Exact, dt: None, tolerance: None, group_step: None };
     let never = AtomicBool::new(false);
     let mut silent = |_: &StudyProgress| ();
     let mut control = Control::new(&never, &mut silent);
@@ -177,6 +177,27 @@ fn cancelling_keeps_what_is_done() {
 }
 
 #[test]
+fn heaps_are_studied_over_their_step() {
+    let settings = StudySettings {
+        methods: vec![Method::Exact],
+        group_steps: vec![0.25, 1.0, 0.5],
+        samples: 20,
+        ..quick(0.5)
+    };
+    let scene = load("bin.xml");
+    let own = Simulation::new(&scene).expect("it compiles").plan().group_step;
+    let report = study(&scene, &settings);
+    let steps: Vec<_> = report.points.iter().map(|point| point.group_step).collect();
+    assert_eq!(steps, [None, Some(0.5 * own), Some(0.25 * own)], "the scene's own once");
+    let overlaps: Vec<f64> = report.points.iter().map(|point| point.worst_overlap).collect();
+    assert!(overlaps[0] > 0.0 && overlaps[2] < overlaps[0], "a shorter step leaves less: {overlaps:?}");
+    assert!(table(&report).contains(&seconds(0.25 * own)), "{}", table(&report));
+
+    let nothing_rests = empty().ball(1, dvec3(1.0, 2.0, 3.0), dvec3(4.0, 5.0, 0.5));
+    assert_eq!(study(&nothing_rests, &settings).points.len(), 1, "nothing can be stepped there");
+}
+
+#[test]
 fn knobs_out_of_range_are_refused_by_name() {
     let good = StudySettings::default();
     let cases = [
@@ -186,6 +207,7 @@ fn knobs_out_of_range_are_refused_by_name() {
         ("dt", StudySettings { dts: vec![11.0], ..good.clone() }),
         ("dt", StudySettings { dts: vec![1e-12], ..good.clone() }),
         ("tolerances", StudySettings { tolerances: vec![1.0], ..good.clone() }),
+        ("group-steps", StudySettings { group_steps: vec![0.0], ..good.clone() }),
         ("repeat", StudySettings { repeat: 0, ..good.clone() }),
         ("samples", StudySettings { samples: 0, ..good.clone() }),
         ("agreement", StudySettings { agreement: -1.0, ..good.clone() }),

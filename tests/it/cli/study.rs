@@ -42,11 +42,13 @@ fn json_is_one_object_on_standard_output() {
 #[test]
 fn what_is_wrong_is_said_by_the_options_name() {
     let bench = Bench::with_scene(BOUNCE);
-    let cases: [(&[&str], &str); 8] = [
+    let cases: [(&[&str], &str); 10] = [
         (&["--until", "0"], "--until"),
         (&["--methods", "euler"], "possible values: exact, thesis, fixed"),
         (&["--dt", "20"], "--dt must lie between"),
         (&["--tolerances", "0.5"], "--tolerances must lie"),
+        (&["--group-steps", "1/0"], "--group-steps must lie"),
+        (&["--group-steps", "half"], "such as 0.5 or 1/2"),
         (&["--repeat", "0"], "--repeat must lie"),
         (&["--json", "--csv", "-"], "--json and --csv cannot both write to standard output"),
         (&["--svg", "scene.xml"], "--svg would overwrite the scene"),
