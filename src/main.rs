@@ -23,14 +23,14 @@ fn main() -> ExitCode {
 fn open_editor(args: EditArgs) -> Result<(), CliError> {
     use polyscene::gui::{self, GuiError};
 
-    let EditArgs { scene, window_size, screenshot, steps, bench_orbit, bench_edit } = args;
-    let options = gui::Options { scene, window_size, screenshot, steps, bench_orbit, bench_edit };
+    let EditArgs { scene, window_size, screenshot, steps, bench_orbit, bench_edit, bench_play } = args;
+    let options = gui::Options { scene, window_size, screenshot, steps, bench_orbit, bench_edit, bench_play };
     let report = gui::run(options).map_err(|error| match error {
         GuiError::NoWindow(reason) => CliError::no_window(reason),
         GuiError::Script(why) => CliError::Usage(why),
         GuiError::Scene(why) => CliError::Scene(why),
     })?;
-    if bench_orbit.is_some() || bench_edit.is_some() {
+    if bench_orbit.is_some() || bench_edit.is_some() || bench_play.is_some() {
         cli::say(report);
     }
     Ok(())

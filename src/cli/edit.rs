@@ -37,4 +37,8 @@ pub struct EditArgs {
     /// Select bodies, drag one and drag all for this many frames each, report how long they took, then close
     #[arg(long, value_name = "FRAMES", hide = true)]
     pub bench_edit: Option<u32>,
+
+    /// Show a run for this many frames paused, playing and scrolling through its ledger, report how long they took, then close
+    #[arg(long, value_name = "FRAMES", hide = true)]
+    pub bench_play: Option<u32>,
 }

@@ -52,7 +52,7 @@ pub struct App {
     inspector: Inspector,
     transport: Transport,
     timeline: Timeline,
-    ledger: LedgerPanel,
+    pub(super) ledger: LedgerPanel,
     pub(super) problems: Problems,
     pub(super) accuracy: Accuracy,
     xml: XmlPane,
@@ -427,6 +427,7 @@ fn context_of<'a>(
 impl eframe::App for App {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         let started = Instant::now();
+        self.script.iter_mut().for_each(Script::begin_turn);
         self.repaints += 1;
         let ctx = ui.ctx().clone();
         self.begin(&ctx);

@@ -11,6 +11,7 @@ use egui::{Context, ViewportCommand};
 
 use super::app::{App, Parts, TIGHT};
 use super::bench::{EditBench, EditTimes};
+use super::bench_play::{PlayBench, PlayTimes};
 use super::dialogs::NativeFileDialogs;
 use super::error::GuiError;
 use super::steps::{Step, counted_step};
@@ -34,6 +35,8 @@ pub struct Options {
     pub bench_orbit: Option<u32>,
     /// Select and drag bodies for this many frames each and report.
     pub bench_edit: Option<u32>,
+    /// Show a run for this many frames paused, playing and scrolling through its ledger, and report.
+    pub bench_play: Option<u32>,
 }
 
 /// What the window measured.
@@ -45,6 +48,8 @@ pub struct Report {
     pub orbit_s: Vec<f64>,
     /// Of frames in which something was selected or dragged.
     pub edits: Option<EditTimes>,
+    /// Of frames in which a run played.
+    pub play: Option<PlayTimes>,
     /// Repaints in two seconds in which nothing happened.
     pub idle_repaints: u64,
     failure: Option<Failure>,
@@ -61,6 +66,9 @@ enum Failure {
 
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(play) = &self.play {
+            return write!(f, "first frame after {:.2} s\n{play}", self.first_frame_s);
+        }
         if let Some(edits) = &self.edits {
             return write!(f, "first frame after {:.2} s; {edits}", self.first_frame_s);
         }
@@ -86,8 +94,8 @@ pub fn run(options: Options) -> Result<Report, GuiError> {
     let report = Arc::new(Mutex::new(Report::default()));
     let script = Script::new(&options, called, report.clone())?;
     check_screenshot(&options)?;
-    let scripted =
-        options.screenshot.is_some() || options.bench_orbit.is_some() || options.bench_edit.is_some();
+    let benches = [options.bench_orbit, options.bench_edit, options.bench_play];
+    let scripted = options.screenshot.is_some() || benches.iter().any(Option::is_some);
     let size = options.window_size.unwrap_or([1360, 860]).map(|side| side as f32);
     let viewport = egui::ViewportBuilder::default()
         .with_app_id("polyscene")
@@ -158,6 +166,7 @@ pub(super) struct Script {
     screenshot: Option<PathBuf>,
     bench: Option<Bench>,
     edits: Option<EditBench>,
+    play: Option<PlayBench>,
     wait_until: Option<Instant>,
     report: Arc<Mutex<Report>>,
 }
@@ -198,9 +207,15 @@ impl Script {
             screenshot: options.screenshot.clone(),
             bench,
             edits: options.bench_edit.map(EditBench::new),
+            play: options.bench_play.map(PlayBench::new),
             wait_until: None,
             report,
         })
+    }
+
+    /// A turn of the window begins.
+    pub(super) fn begin_turn(&mut self) {
+        self.play.iter_mut().for_each(PlayBench::begin_turn);
     }
 
     /// Whether the window does not show yet what the simulation made of all that it was told; `answered`: whether it
@@ -233,7 +248,8 @@ impl App {
         let is_done = script.steps.is_empty()
             && script.screenshot.is_none()
             && script.bench.is_none()
-            && script.edits.is_none();
+            && script.edits.is_none()
+            && script.play.is_none();
         if is_done {
             return false;
         }
@@ -241,7 +257,9 @@ impl App {
         let busy =
             script.waits_for_simulation(answered) || self.accuracy.is_running() || self.dialogs.are_working();
         // A person who drags does not wait for the simulation.
-        let busy = busy && !script.edits.as_ref().is_some_and(EditBench::has_begun);
+        let busy = busy
+            && !script.edits.as_ref().is_some_and(EditBench::has_begun)
+            && !script.play.as_ref().is_some_and(PlayBench::has_begun);
         if busy || script.wait_until.is_some_and(|until| Instant::now() < until) {
             ctx.request_repaint_after(Duration::from_millis(10));
             return true;
@@ -285,6 +303,14 @@ impl App {
         }
         if let Some(edits) = script.edits.take() {
             script.note(|report| report.edits = Some(edits.finish()));
+        }
+        if let Some(play) = &mut script.play
+            && !self.bench_playing(ctx, play)
+        {
+            return true;
+        }
+        if let Some(play) = script.play.take() {
+            script.note(|report| report.play = Some(play.finish()));
         }
         if let Some(reason) = self.errors_of_scene() {
             // The picture shows them, but no script should take them for a success.

@@ -6,6 +6,7 @@ mod app;
 mod background;
 mod badge;
 mod bench;
+mod bench_play;
 mod colors;
 mod context;
 mod dialogs;

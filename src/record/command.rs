@@ -107,10 +107,16 @@ pub enum Goal {
 
 impl Of {
     pub fn holds(self, row: &EventRow) -> bool {
+        self.holds_between(row.a_key, row.b_key)
+    }
+
+    /// Whether an event of this body, and of the other if there is one, is meant.
+    pub fn holds_between(self, a: NodeKey, b: Option<NodeKey>) -> bool {
+        let concerns = |key| a == key || b == Some(key);
         match self {
             Self::All => true,
-            Self::Body(key) => row.concerns(key),
-            Self::Pair(a, b) => row.concerns(a) && row.concerns(b),
+            Self::Body(key) => concerns(key),
+            Self::Pair(one, other) => concerns(one) && concerns(other),
         }
     }
 }

@@ -16,7 +16,8 @@ pub(super) struct Keyframe {
     pub(super) snapshot: Snapshot,
     /// [`Simulation::hash`] there.
     pub(super) hash: u64,
-    segments: u64,
+    /// Number of segments from which on another one is due: counting bodies for it at every Δt would cost.
+    next_due: u64,
     /// About what it takes, bytes.
     bytes: usize,
     /// Edits that it contains.
@@ -37,10 +38,17 @@ pub(super) struct Keyframes {
 
 impl Keyframe {
     pub(super) fn new(simulation: &Simulation, at: Moment, edits: usize) -> Self {
-        let segments = simulation.counters().segments;
-        let hash = simulation.hash();
-        let bytes = BODY_SIZE * (simulation.dynamic_count() + 8);
-        Self { at, snapshot: simulation.snapshot(), hash, segments, bytes, edits, after_edit: false }
+        let bodies = simulation.dynamic_count();
+        let apart = SEGMENTS_APART.max(SEGMENTS_PER_BODY * bodies as u64);
+        Self {
+            at,
+            snapshot: simulation.snapshot(),
+            hash: simulation.hash(),
+            next_due: simulation.counters().segments + apart,
+            bytes: BODY_SIZE * (bodies + 8),
+            edits,
+            after_edit: false,
+        }
     }
 
     pub(super) fn after_edit(self) -> Self {
@@ -56,9 +64,7 @@ impl Keyframes {
 
     /// Whether enough was simulated since the last one for another.
     pub(super) fn is_due(&self, simulation: &Simulation) -> bool {
-        let apart = SEGMENTS_APART.max(SEGMENTS_PER_BODY * simulation.dynamic_count() as u64);
-        let segments = simulation.counters().segments;
-        self.list.last().is_none_or(|last| segments >= last.segments + apart)
+        self.list.last().is_none_or(|last| simulation.counters().segments >= last.next_due)
     }
 
     /// The last one not after a moment.

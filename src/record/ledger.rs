@@ -1,5 +1,5 @@
-//! The ledger of a whole run: every event with the names a person knows. Copies share their rows, so that a million of them
-//! go into a frame at the price of a few.
+//! The ledger of a whole run: every event with the names a person knows. Copies share all blocks of rows but the last, so that a
+//! million rows go into a frame at the price of a few.
 
 use std::sync::{Arc, OnceLock};
 
@@ -28,13 +28,12 @@ impl EventRow {
     /// Energy that the impact left the bodies with, less what they came with, J, ≤ 0 but for rounding: of an impulse J
     /// along the normal ½ J (v⁻ + v⁺), with the normal speeds before and after.
     pub fn energy_change(&self) -> Option<f64> {
-        let event = &self.event;
-        let is_impact = matches!(event.kind, EventKind::Impact | EventKind::Collapse);
-        is_impact.then_some(0.5 * event.impulse * (event.vn_before + event.vn_after))
+        Self::energy_change_of(&self.event)
     }
 
-    pub fn concerns(&self, key: NodeKey) -> bool {
-        self.a_key == key || self.b_key == Some(key)
+    pub fn energy_change_of(event: &Event) -> Option<f64> {
+        let is_impact = matches!(event.kind, EventKind::Impact | EventKind::Collapse);
+        is_impact.then_some(0.5 * event.impulse * (event.vn_before + event.vn_after))
     }
 }
 
@@ -55,61 +54,93 @@ impl Names {
         }
     }
 
-    fn get(&self, body: BodyRef) -> (NodeKey, Arc<str>) {
-        let found = match body {
+    fn find(&self, body: BodyRef) -> Option<&(NodeKey, Arc<str>)> {
+        match body {
             BodyRef::Dynamic(number) => self.dynamic.get(number as usize),
             BodyRef::Static(number) => self.statics.get(number as usize),
-        };
-        found.cloned().unwrap_or_default()
+        }
+    }
+
+    fn get(&self, body: BodyRef) -> (NodeKey, Arc<str>) {
+        self.find(body).cloned().unwrap_or_default()
+    }
+
+    fn key(&self, body: BodyRef) -> NodeKey {
+        self.find(body).map_or_else(NodeKey::default, |(key, _)| *key)
     }
 }
 
-/// Rows of one block: what a copy that is written to has to copy.
+/// Rows of one block: what a copy does not share.
 const BLOCK: usize = 512;
 
-/// Events as they come, and the rows with their names, each made when it is asked for first.
+/// Events as they come, and the rows with their names, each made when it is asked for first. Room for rows is made for the first of
+/// them: to write down that there are none would cost as much as a part of the event.
 #[derive(Clone, Debug, Default)]
 struct Block {
     events: Vec<Event>,
-    rows: Vec<OnceLock<Arc<EventRow>>>,
+    rows: OnceLock<Rows>,
     names: Arc<Names>,
 }
 
+type Rows = Box<[OnceLock<Arc<EventRow>>]>;
+
 impl Block {
     fn new(names: Arc<Names>) -> Self {
-        Self { events: Vec::with_capacity(BLOCK), rows: Vec::with_capacity(BLOCK), names }
+        Self { events: Vec::with_capacity(BLOCK), rows: OnceLock::new(), names }
+    }
+
+    fn rows(&self) -> &Rows {
+        self.rows.get_or_init(|| (0..BLOCK).map(|_| OnceLock::new()).collect())
     }
 
     fn row(&self, nth: usize) -> Option<&Arc<EventRow>> {
         let event = self.events.get(nth)?;
-        Some(self.rows.get(nth)?.get_or_init(|| Arc::new(EventRow::new(&self.names, event))))
+        Some(self.rows().get(nth)?.get_or_init(|| Arc::new(EventRow::new(&self.names, event))))
     }
 
-    fn push(&mut self, event: &Event, row: OnceLock<Arc<EventRow>>) {
-        self.events.push(*event);
-        self.rows.push(row);
+    /// Keys of the bodies of an event, without making its row.
+    fn keys(&self, nth: usize) -> Option<(NodeKey, Option<NodeKey>)> {
+        let event = self.events.get(nth)?;
+        let made = self.rows.get().and_then(|rows| rows.get(nth)?.get()).map(|row| (row.a_key, row.b_key));
+        Some(made.unwrap_or_else(|| (self.names.key(event.a), event.b.map(|b| self.names.key(b)))))
     }
 
     fn truncate(&mut self, len: usize) {
         self.events.truncate(len);
-        self.rows.truncate(len);
+        if let Some(rows) = self.rows.get_mut() {
+            rows.iter_mut().skip(len).for_each(|row| drop(row.take()));
+        }
+    }
+}
+
+/// Which past a ledger has. While it is the same one, rows that were there once stay what they are.
+#[derive(Clone, Debug, Default)]
+pub struct Past(Arc<()>);
+
+impl PartialEq for Past {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
     }
 }
 
 /// Rows in the order of their numbers, without a gap.
 #[derive(Clone, Debug, Default)]
 pub struct Ledger {
+    /// Full blocks, then the one that is written to: not shared, since looking whether anyone else reads it would wait for all
+    /// that was written just before.
     blocks: Vec<Arc<Block>>,
+    open: Block,
     len: usize,
     /// Of the events that are noted from now on.
     names: Arc<Names>,
+    past: Past,
 }
 
 impl FromIterator<EventRow> for Ledger {
     /// Rows in the order of their numbers, without a gap.
     fn from_iter<I: IntoIterator<Item = EventRow>>(rows: I) -> Self {
         let mut ledger = Self::default();
-        rows.into_iter().for_each(|row| ledger.push(&row.event.clone(), Arc::new(row).into()));
+        rows.into_iter().for_each(|row| ledger.push(Arc::new(row)));
         ledger
     }
 }
@@ -126,10 +157,8 @@ impl Ledger {
 
     /// Other names for events that are noted from now on.
     pub(super) fn rename(&mut self, names: Arc<Names>) {
-        if let Some(block) = self.blocks.last_mut() {
-            (0..block.events.len()).for_each(|nth| _ = block.row(nth));
-            Arc::make_mut(block).names = names.clone();
-        }
+        (0..self.open.events.len()).for_each(|nth| _ = self.open.row(nth));
+        self.open.names = names.clone();
         self.names = names;
     }
 
@@ -143,12 +172,31 @@ impl Ledger {
 
     /// Number of the first row kept; 1 while nothing was dropped, and for an empty ledger.
     pub fn first(&self) -> u64 {
-        self.blocks.first().and_then(|block| block.events.first()).map_or(1, |event| event.seq)
+        self.block(0).and_then(|block| block.events.first()).map_or(1, |event| event.seq)
+    }
+
+    pub fn past(&self) -> &Past {
+        &self.past
+    }
+
+    fn block(&self, nth: usize) -> Option<&Block> {
+        let open = (nth == self.blocks.len()).then_some(&self.open);
+        self.blocks.get(nth).map(|block| &**block).or(open)
     }
 
     /// The n-th row that is kept.
     pub fn at(&self, index: usize) -> Option<&Arc<EventRow>> {
-        self.blocks.get(index / BLOCK)?.row(index % BLOCK)
+        self.block(index / BLOCK)?.row(index % BLOCK)
+    }
+
+    /// The keys of the bodies of the n-th row that is kept. Unlike a row, they and [`Self::event_at`] take no memory.
+    pub fn keys_at(&self, index: usize) -> Option<(NodeKey, Option<NodeKey>)> {
+        self.block(index / BLOCK)?.keys(index % BLOCK)
+    }
+
+    /// The event of the n-th row that is kept.
+    pub fn event_at(&self, index: usize) -> Option<&Event> {
+        self.block(index / BLOCK)?.events.get(index % BLOCK)
     }
 
     /// The row of an event's number.
@@ -163,11 +211,7 @@ impl Ledger {
 
     /// Rows from the n-th that is kept on.
     pub fn iter_from(&self, index: usize) -> impl DoubleEndedIterator<Item = &Arc<EventRow>> {
-        let whole = self.blocks.get(index / BLOCK..).unwrap_or_default();
-        whole.iter().enumerate().flat_map(move |(nth, block)| {
-            let from = if nth == 0 { index % BLOCK } else { 0 };
-            (from..block.events.len()).filter_map(|nth| block.row(nth))
-        })
+        (index..self.len).filter_map(|nth| self.at(nth))
     }
 
     /// How many rows happened before a time, or not after it.
@@ -182,7 +226,7 @@ impl Ledger {
     /// How many of the first rows fulfil what no later one does after the first that does not.
     fn count_while(&self, holds: impl Fn(&Event) -> bool) -> usize {
         let before = self.blocks.partition_point(|block| block.events.last().is_some_and(&holds));
-        let inside = self.blocks.get(before).map_or(0, |block| block.events.partition_point(&holds));
+        let inside = self.block(before).map_or(0, |block| block.events.partition_point(&holds));
         (before * BLOCK + inside).min(self.len)
     }
 
@@ -191,30 +235,39 @@ impl Ledger {
         self.first() + self.count_until(time) as u64 - 1
     }
 
-    pub(super) fn note(&mut self, event: &Event) {
-        self.push(event, OnceLock::new());
+    /// Adds a row that is made already.
+    fn push(&mut self, row: Arc<EventRow>) {
+        self.note(&row.event);
+        let place = self.open.events.len() - 1;
+        if let Some(free) = self.open.rows().get(place) {
+            // It is the first there: what was taken away has left none.
+            let _ = free.set(row);
+        }
     }
 
-    fn push(&mut self, event: &Event, row: OnceLock<Arc<EventRow>>) {
+    pub(super) fn note(&mut self, event: &Event) {
         if self.len.is_multiple_of(BLOCK) {
-            self.blocks.push(Arc::new(Block::new(self.names.clone())));
+            let full = std::mem::replace(&mut self.open, Block::new(self.names.clone()));
+            if !full.events.is_empty() {
+                self.blocks.push(Arc::new(full));
+            }
         }
-        if let Some(block) = self.blocks.last_mut() {
-            Arc::make_mut(block).push(event, row);
-            self.len += 1;
-        }
+        self.open.events.push(*event);
+        self.len += 1;
     }
 
     /// Takes the rows after an event.
     pub(super) fn split_off(&mut self, event: u64) -> Vec<Arc<EventRow>> {
         let kept =
             usize::try_from((event + 1).saturating_sub(self.first())).unwrap_or(usize::MAX).min(self.len);
-        let rows = self.iter_from(kept).cloned().collect();
-        self.blocks.truncate(kept.div_ceil(BLOCK));
-        if let Some(block) = self.blocks.last_mut()
-            && !kept.is_multiple_of(BLOCK)
-        {
-            Arc::make_mut(block).truncate(kept % BLOCK);
+        let rows: Vec<Arc<EventRow>> = self.iter_from(kept).cloned().collect();
+        if kept / BLOCK < self.blocks.len() {
+            self.blocks.truncate(kept / BLOCK + 1);
+            self.open = self.blocks.pop().map(Arc::unwrap_or_clone).unwrap_or_default();
+        }
+        self.open.truncate(kept % BLOCK);
+        if !rows.is_empty() {
+            self.past = Past::default();
         }
         self.len = kept;
         rows
@@ -222,14 +275,15 @@ impl Ledger {
 
     pub(super) fn append(&mut self, rows: Vec<Arc<EventRow>>) {
         for row in rows {
-            self.push(&row.event.clone(), row.into());
+            self.push(row);
         }
     }
 
     /// Drops whole blocks of rows before a time.
     pub(super) fn drop_before(&mut self, time: f64) {
         let old = |block: &Arc<Block>| block.events.last().is_some_and(|event| event.time < time);
-        let gone = self.blocks.partition_point(old).min(self.blocks.len().saturating_sub(1));
+        let last = usize::from(self.open.events.is_empty());
+        let gone = self.blocks.partition_point(old).min(self.blocks.len().saturating_sub(last));
         self.blocks.drain(..gone);
         self.len -= gone * BLOCK;
     }
@@ -301,6 +355,7 @@ mod tests {
             assert_eq!((ledger.len() as u64, rest.len() as u64), (kept, 2000 - kept));
             assert!(ledger.get(kept + 1).is_none());
             assert_eq!(copy.len(), 2000);
+            assert_eq!(ledger.past() == copy.past(), kept == 2000, "what is taken away may come otherwise");
             ledger.append(rest);
             let numbers = |ledger: &Ledger| ledger.iter_from(0).map(|row| row.event.seq).collect::<Vec<_>>();
             assert_eq!(numbers(&ledger), numbers(&copy));

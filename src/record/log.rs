@@ -70,6 +70,15 @@ pub(super) struct Log {
     bytes: usize,
 }
 
+/// A moment in the log, found once for all bodies.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Then<'a> {
+    log: &'a Log,
+    /// The last pieces that may have begun.
+    last: &'a [Address],
+    moment: Moment,
+}
+
 impl Noted {
     fn from(&self) -> Moment {
         Moment { event: self.event, time: self.piece.start(), is_over: !self.by_event }
@@ -81,7 +90,27 @@ impl Noted {
 
     /// Bytes that it takes.
     pub(super) fn bytes(&self) -> usize {
-        size_of::<Self>() - size_of::<Piece>() + self.piece.bytes()
+        Self::bytes_with(&self.piece)
+    }
+
+    fn bytes_with(piece: &Piece) -> usize {
+        size_of::<Self>() - size_of::<Piece>() + piece.bytes()
+    }
+}
+
+impl<'a> Then<'a> {
+    fn noted(&self, body: u32) -> Option<&'a Noted> {
+        let mut noted = self.log.get(body, *self.last.get(body as usize)?)?;
+        while !noted.is_not_after(self.moment) {
+            noted = self.log.get(body, noted.before)?;
+        }
+        Some(noted)
+    }
+
+    /// The piece that a body follows.
+    pub(super) fn piece(&self, body: BodyRef) -> Option<&'a Piece> {
+        let BodyRef::Dynamic(body) = body else { return None };
+        Some(&self.noted(body)?.piece)
     }
 }
 
@@ -129,24 +158,30 @@ impl Log {
     pub(super) fn note(&mut self, begun: Begun) {
         let BodyRef::Dynamic(body) = begun.body else { return };
         let Begun { event, by_event, piece, .. } = begun;
-        self.push(Noted { piece, event, before: Address::NONE, body, by_event });
+        let before = self.enter(body, Bound { event, time: piece.start() }, Noted::bytes_with(&piece));
+        self.open.pieces.push(Noted { piece, event, before, body, by_event });
     }
 
     fn push(&mut self, noted: Noted) {
+        let before = self.enter(noted.body, Bound::of(&noted), noted.bytes());
+        self.open.pieces.push(Noted { before, ..noted });
+    }
+
+    /// Makes room for the next piece of a body, which begins at a bound and takes so many bytes; gives the one before.
+    fn enter(&mut self, body: u32, bound: Bound, bytes: usize) -> Address {
         if self.open.pieces.len() >= self.open.size {
             self.begin_block();
         }
-        let body = noted.body as usize;
+        let body = body as usize;
         if self.last.len() <= body {
             self.last.resize(body + 1, Address::NONE);
         }
-        self.widen(Bound::of(&noted));
+        self.widen(bound);
         let here =
             Address { block: self.dropped + self.full.len() as u32, place: self.open.pieces.len() as u32 };
-        let before = std::mem::replace(&mut self.last[body], here);
         self.count += 1;
-        self.bytes += noted.bytes();
-        self.open.pieces.push(Noted { before, ..noted });
+        self.bytes += bytes;
+        std::mem::replace(&mut self.last[body], here)
     }
 
     /// Makes the open block a full one, and begins another.
@@ -192,8 +227,8 @@ impl Log {
         }
     }
 
-    /// The piece that a body follows at a moment.
-    fn noted_at(&self, body: u32, moment: Moment) -> Option<&Noted> {
+    /// What all bodies follow at a moment.
+    pub(super) fn at(&self, moment: Moment) -> Then<'_> {
         // Everything in later blocks begins after the moment.
         let blocks = self.spans.partition_point(|span| span.least.may_be_before(moment));
         let last = match self.full.get(blocks) {
@@ -201,24 +236,14 @@ impl Log {
             None if blocks == self.full.len() && blocks < self.spans.len() => &self.open.last_before,
             None => &self.last,
         };
-        let mut noted = self.get(body, *last.get(body as usize)?)?;
-        while !noted.is_not_after(moment) {
-            noted = self.get(body, noted.before)?;
-        }
-        Some(noted)
-    }
-
-    /// The piece that a body follows at a moment.
-    pub(super) fn at(&self, body: BodyRef, moment: Moment) -> Option<&Piece> {
-        let BodyRef::Dynamic(body) = body else { return None };
-        Some(&self.noted_at(body, moment)?.piece)
+        Then { log: self, last, moment }
     }
 
     /// Pieces that a body follows from one moment to another, in order.
     pub(super) fn between(&self, body: BodyRef, from: Moment, to: Moment) -> impl Iterator<Item = &Piece> {
         let mut pieces = Vec::new();
         if let BodyRef::Dynamic(body) = body {
-            let mut next = self.noted_at(body, to);
+            let mut next = self.at(to).noted(body);
             while let Some(noted) = next {
                 pieces.push(&noted.piece);
                 let goes_on = !noted.is_not_after(from);
@@ -311,7 +336,7 @@ mod tests {
         let mut simulation = Simulation::new(document.scene().unwrap()).unwrap();
         let mut pieces = Vec::new();
         simulation.trace_motion();
-        simulation.take_motion(&mut |begun| pieces.push(begun.piece));
+        simulation.take_motion(|begun| pieces.push(begun.piece));
         pieces.swap_remove(0)
     }
 
@@ -339,7 +364,7 @@ mod tests {
             for body in 0..BODIES {
                 let expected =
                     naive.iter().rev().find(|(other, from)| *other == body && from.is_not_after(moment));
-                let found = log.noted_at(body, moment).map(|noted| (body, noted.from()));
+                let found = log.at(moment).noted(body).map(|noted| (body, noted.from()));
                 assert_eq!(found, expected.copied(), "of body {body} at {moment:?}");
             }
         }

@@ -38,7 +38,7 @@ pub use file::{
 };
 pub use frame::{BodyFrame, Busiest, ContactFrame, Frame, Jump, Lag, LagCause, Recorded, RunState};
 pub use inline::InlineRunner;
-pub use ledger::{EventRow, Ledger};
+pub use ledger::{EventRow, Ledger, Past};
 pub use limits::{Exceeded, Limits, Watch, advance};
 pub use moment::Moment;
 pub use motion::RecordedMotion;

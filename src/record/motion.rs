@@ -55,12 +55,12 @@ impl RecordedMotion {
             time if time == self.from.time => self.from,
             time => Moment::after_all(self.ledger.number_until(time), time),
         };
-        Some(self.log.at(self.bodies.get(nth)?.body, moment)?.at(time))
+        Some(self.log.at(moment).piece(self.bodies.get(nth)?.body)?.at(time))
     }
 
     /// Right after an event of the ledger.
     pub fn state_after(&self, nth: usize, event: u64) -> Option<BodyState> {
         let time = self.ledger.get(event)?.event.time;
-        Some(self.log.at(self.bodies.get(nth)?.body, Moment::right_after(event, time))?.at(time))
+        Some(self.log.at(Moment::right_after(event, time)).piece(self.bodies.get(nth)?.body)?.at(time))
     }
 }

@@ -81,7 +81,8 @@ impl Run {
         if self.is_settled() {
             return bodies.filter_map(|body| self.simulation.state(body)).all(|state| rests(state.contact));
         }
-        let pieces = bodies.filter_map(|body| self.recording.piece(body, self.cursor));
+        let then = self.recording.at(self.cursor);
+        let pieces = bodies.filter_map(|body| then.piece(body));
         pieces.map(|piece| piece.at(self.cursor.time)).all(|state| rests(state.contact))
     }
 }

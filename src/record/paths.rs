@@ -87,12 +87,13 @@ pub(super) fn at_impact(run: &Run) -> Vec<ImpactBody> {
 fn impact_body(run: &Run, body: BodyRef, before: Moment) -> Option<ImpactBody> {
     let (now, recording) = (run.cursor, &run.recording);
     let (start, end) = run.grid.span()?;
-    let position = |time: f64| Some(recording.piece(body, recording.moment_at(time))?.position(time));
+    let piece = |moment: Moment| recording.at(moment).piece(body);
+    let position = |time: f64| Some(piece(recording.moment_at(time))?.position(time));
     Some(ImpactBody {
         key: run.simulation.key(body),
-        position: recording.piece(body, now)?.position(now.time),
-        before: recording.piece(body, before)?.at(now.time).velocity,
-        after: recording.piece(body, now)?.at(now.time).velocity,
+        position: piece(now)?.position(now.time),
+        before: piece(before)?.at(now.time).velocity,
+        after: piece(now)?.at(now.time).velocity,
         at_start: position(start)?,
         at_end: if recording.knows(end) { position(end) } else { None },
     })

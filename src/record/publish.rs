@@ -137,8 +137,8 @@ pub(super) fn bodies_looked_up(run: &Run) -> Vec<BodyFrame> {
     let time = run.cursor.time;
     let then = run.recording.keyframes.before(run.cursor).map(|key| key.snapshot.simulation());
     let simulation = then.unwrap_or(&run.simulation);
-    let pieces =
-        simulation.dynamic_bodies().filter_map(|body| Some((body, run.recording.piece(body, run.cursor)?)));
+    let moment = run.recording.at(run.cursor);
+    let pieces = simulation.dynamic_bodies().filter_map(|body| Some((body, moment.piece(body)?)));
     pieces
         .filter_map(|(body, piece)| {
             body_frame(simulation, body, &piece.at(time), simulation.force_on(body, piece, time))

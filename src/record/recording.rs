@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::grid::StepGrid;
 use super::keyframes::{Keyframe, Keyframes};
 use super::ledger::{EventRow, Ledger, Names};
-use super::log::{Log, Noted};
+use super::log::{Log, Noted, Then};
 use super::moment::Moment;
 use super::ticks::{Tick, Ticks};
 use crate::sim::{BodyRef, Event, Piece, SimEdit, Simulation};
@@ -89,7 +89,7 @@ impl Recording {
 
     /// Takes over the motion that the simulation has begun.
     pub(super) fn take_motion(&mut self, simulation: &mut Simulation) {
-        simulation.take_motion(&mut |begun| self.log.note(begun));
+        simulation.take_motion(|begun| self.log.note(begun));
     }
 
     pub(super) fn note_event(&mut self, event: &Event) {
@@ -120,9 +120,9 @@ impl Recording {
         self.keyframes.set_head(head);
     }
 
-    /// The piece of motion that a body follows at a moment.
-    pub(super) fn piece(&self, body: BodyRef, moment: Moment) -> Option<&Piece> {
-        self.log.at(body, moment)
+    /// What all bodies follow at a moment.
+    pub(super) fn at(&self, moment: Moment) -> Then<'_> {
+        self.log.at(moment)
     }
 
     /// The pieces that a body follows between two times of what is known.

@@ -224,8 +224,9 @@ impl Run {
         let mut grid = self.grid;
         grid.open(self.cursor.time, dt);
         let end = grid.open.map_or(self.cursor.time, |(_, end)| end);
-        let next = self.recording.ticks.around(self.cursor.time).1;
-        let divides_anew = self.cursor != self.recording.end && next.is_none_or(|next| next.at.time != end);
+        let is_known = self.cursor != self.recording.end;
+        let divides_anew = is_known
+            && self.recording.ticks.around(self.cursor.time).1.is_none_or(|next| next.at.time != end);
         if divides_anew && self.simulation.method().depends_on_dt() {
             if !self.is_settled() {
                 return None;

@@ -72,7 +72,7 @@ impl Run {
             }
         }
         // Nothing taken is lost: it was recorded the first time.
-        self.simulation.take_motion(&mut |_| {});
+        self.simulation.take_motion(|_| {});
         self.apply_due_edits();
         self.compare_state();
         if !self.at.is_not_after(self.cursor) {

@@ -24,11 +24,20 @@ impl Ticks {
     }
 
     pub(super) fn note(&mut self, tick: Tick) {
+        // Most come last; to search for the others waits for memory.
+        if self.0.last().is_some_and(|last| last.at.time < tick.at.time) {
+            self.0.push(tick);
+            return self.stay_bounded();
+        }
         let place = self.0.partition_point(|other| other.at.time < tick.at.time);
         match self.0.get_mut(place) {
             Some(again) if again.at.time == tick.at.time => *again = tick,
             _ => self.0.insert(place, tick),
         }
+        self.stay_bounded();
+    }
+
+    fn stay_bounded(&mut self) {
         if self.0.len() > MOST {
             self.0.drain(..MOST / 4);
         }

@@ -295,7 +295,7 @@ impl Simulation {
     }
 
     /// Hands out the pieces of motion begun since the last call, in the order begun; see [`Self::trace_motion`].
-    pub fn take_motion(&mut self, each: &mut dyn FnMut(Begun)) {
+    pub fn take_motion(&mut self, each: impl FnMut(Begun)) {
         self.state.trace.take(each);
     }
 

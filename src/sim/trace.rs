@@ -174,8 +174,11 @@ impl Trace {
         self.sealed < self.begun.len()
     }
 
-    pub fn take(&mut self, each: &mut dyn FnMut(Begun)) {
-        self.sealed = 0;
-        self.begun.drain(..).for_each(each);
+    pub fn take(&mut self, each: impl FnMut(Begun)) {
+        // Most portions of work begin nothing.
+        if !self.begun.is_empty() {
+            self.sealed = 0;
+            self.begun.drain(..).for_each(each);
+        }
     }
 }

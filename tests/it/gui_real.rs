@@ -361,6 +361,18 @@ fn a_step_waits_for_the_one_before() {
 
 /// Symptom: `--do` was documented nowhere. Expected: docs/scripts.md lists every command.
 #[test]
+fn the_frames_of_a_run_that_plays_are_measured() {
+    let scene = sample_path("gas");
+    let (code, said) = scripted(&[scene.to_str().unwrap(), "--bench-play", "10"]);
+    assert_eq!(code, Some(0), "{said}");
+    for words in
+        ["paused: the window's own part median", "playing:", "scrolling the ledger:", "rows recorded"]
+    {
+        assert!(said.contains(words), "{words} in {said}");
+    }
+}
+
+#[test]
 fn the_documentation_lists_every_step() {
     let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/scripts.md")).unwrap();
     let line = |row: &polyscene::editor::CommandInfo| {

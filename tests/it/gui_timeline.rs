@@ -3,7 +3,7 @@
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use polyscene::record::EVENT_COLUMNS;
+use polyscene::record::{EVENT_COLUMNS, Of};
 
 use crate::gui_files::Dropped;
 use crate::gui_support::Window;
@@ -211,11 +211,11 @@ fn the_events_of_the_selection_are_gone_through() {
     window.key_with(Modifiers::SHIFT, Key::B);
     let frame = window.frame().clone();
     let row = frame.event(frame.event_count).expect("an event").clone();
-    assert!(row.concerns(key));
+    assert!(Of::Body(key).holds(&row));
     window.key_with(Modifiers::SHIFT, Key::B);
     let before = window.frame().clone();
     assert!(before.event_count < frame.event_count);
-    assert!(before.event(before.event_count).is_some_and(|row| row.concerns(key)));
+    assert!(before.event(before.event_count).is_some_and(|row| Of::Body(key).holds(row)));
     assert!(!before.at_impact.is_empty());
 }
 

@@ -3,8 +3,11 @@
 use crate::gui::context::AppContext;
 use crate::gui::numbers::significant;
 use crate::record::EventRow;
-use crate::scene::Map;
-use crate::sim::EventKind;
+use crate::scene::{Map, NodeKey};
+use crate::sim::{Event, EventKind};
+
+/// What an event is sorted by; its first body by the key that it has in the scene.
+pub type SortKey = fn(&Event, NodeKey) -> f64;
 
 /// One column.
 pub struct LedgerColumn {
@@ -16,7 +19,7 @@ pub struct LedgerColumn {
     /// What the panel shows.
     pub text: fn(&AppContext<'_>, &EventRow) -> String,
     /// What rows are sorted by.
-    pub key: Option<fn(&EventRow) -> f64>,
+    pub key: Option<SortKey>,
 }
 
 /// Place of the columns with text, which is not written in a font of fixed width.
@@ -29,14 +32,14 @@ pub const COLUMNS: [LedgerColumn; 14] = [
         help: "Number of the event since the start",
         width: 58.0,
         text: |_, row| row.event.seq.to_string(),
-        key: Some(|row| row.event.seq as f64),
+        key: Some(|event, _| event.seq as f64),
     },
     LedgerColumn {
         title: "t [s]",
         help: "Model time",
         width: 104.0,
         text: |_, row| format!("{:.9}", row.event.time),
-        key: Some(|row| row.event.time),
+        key: Some(|event, _| event.time),
     },
     LedgerColumn {
         title: "Δt",
@@ -53,14 +56,14 @@ pub const COLUMNS: [LedgerColumn; 14] = [
         help: "What happened",
         width: 92.0,
         text: |_, row| kind(row),
-        key: Some(|row| EventKind::ALL.iter().position(|kind| *kind == row.event.kind).unwrap_or(0) as f64),
+        key: Some(|event, _| EventKind::ALL.iter().position(|kind| *kind == event.kind).unwrap_or(0) as f64),
     },
     LedgerColumn {
         title: "Bodies",
         help: "Who took part; the contacts of bodies that touch are resolved together",
         width: 150.0,
         text: bodies,
-        key: Some(|row| row.a_key.0 as f64),
+        key: Some(|_, a| a.0 as f64),
     },
     LedgerColumn {
         title: "Normal speed before → after [m/s]",
@@ -71,42 +74,42 @@ pub const COLUMNS: [LedgerColumn; 14] = [
             let speeds = [event.vn_before, event.vn_after].map(|speed| significant(speed, 6));
             if_impact(row, || speeds.join(" → "))
         },
-        key: Some(|row| row.event.vn_before.abs()),
+        key: Some(|event, _| event.vn_before.abs()),
     },
     LedgerColumn {
         title: "Impulse [N·s]",
         help: "Momentum handed over along the normal",
         width: 92.0,
         text: |_, row| if_impact(row, || significant(row.event.impulse, 6)),
-        key: Some(|row| row.event.impulse),
+        key: Some(|event, _| event.impulse),
     },
     LedgerColumn {
         title: "ΔE [J]",
         help: "Energy that the impact left the bodies with, less what they came with",
         width: 88.0,
         text: |_, row| row.energy_change().map_or(String::new(), |change| significant(change, 5)),
-        key: Some(|row| row.energy_change().unwrap_or(0.0)),
+        key: Some(|event, _| EventRow::energy_change_of(event).unwrap_or(0.0)),
     },
     LedgerColumn {
         title: "Group",
         help: "Number of the impact group, whose contacts are resolved together",
         width: 56.0,
         text: |_, row| if row.event.group > 0 { row.event.group.to_string() } else { String::new() },
-        key: Some(|row| row.event.group as f64),
+        key: Some(|event, _| event.group as f64),
     },
     LedgerColumn {
         title: "Rounds",
         help: "In how many rounds the contacts of the group were resolved; 0 for two bodies alone, by Newton's law",
         width: 58.0,
         text: |_, row| if_impact(row, || row.event.rounds.to_string()),
-        key: Some(|row| f64::from(row.event.rounds)),
+        key: Some(|event, _| f64::from(event.rounds)),
     },
     LedgerColumn {
         title: "Gap left [m]",
         help: "Distance of the surfaces where the search for the time of contact ended: what its root left over",
         width: 88.0,
         text: |_, row| if_impact(row, || significant(row.event.gap, 2)),
-        key: Some(|row| row.event.gap.abs()),
+        key: Some(|event, _| event.gap.abs()),
     },
     LedgerColumn {
         title: "Place [m]",

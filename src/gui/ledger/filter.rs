@@ -5,7 +5,7 @@ use egui::{TextEdit, Ui};
 use crate::editor::parse_number;
 use crate::gui::colors::tones;
 use crate::gui::context::AppContext;
-use crate::record::{EventRow, Of};
+use crate::record::{Ledger, Of};
 use crate::sim::EventKind;
 
 /// All conditions hold of the events listed.
@@ -28,12 +28,16 @@ impl Default for Filter {
 }
 
 impl Filter {
-    pub fn holds(&self, row: &EventRow) -> bool {
-        let event = &row.event;
-        (self.from..=self.to).contains(&event.time)
-            && event.impulse >= self.impulse
-            && !self.without.contains(&event.kind)
-            && self.of.holds(row)
+    /// Whether it holds of the n-th row of a ledger.
+    pub fn holds(&self, ledger: &Ledger, nth: usize) -> bool {
+        let of_event = ledger.event_at(nth).is_some_and(|event| {
+            (self.from..=self.to).contains(&event.time)
+                && event.impulse >= self.impulse
+                && !self.without.contains(&event.kind)
+        });
+        let of_bodies =
+            || self.of == Of::All || ledger.keys_at(nth).is_some_and(|(a, b)| self.of.holds_between(a, b));
+        of_event && of_bodies()
     }
 }
 

@@ -32,6 +32,8 @@ pub struct LedgerPanel {
     listed: Listed,
     /// The event shown when the list was scrolled to it last.
     scrolled_to: Option<u64>,
+    /// Where to scroll to next, as a share of all rows.
+    wanted: Option<f64>,
     /// Rows that are being written for a file or a copy.
     writing: Option<Writing>,
 }
@@ -89,8 +91,16 @@ impl LedgerPanel {
         self.order = chosen.unwrap_or(self.order);
     }
 
+    /// Scrolls to a place in the list, from 0 at its beginning to 1 at its end.
+    pub fn scroll_to(&mut self, share: f64) {
+        self.wanted = Some(share);
+    }
+
     /// The row of the event shown, once for every one; of an impact group the first.
     fn row_to_scroll_to(&mut self, context: &AppContext<'_>) -> Option<usize> {
+        if let Some(share) = self.wanted.take() {
+            return Some((share * self.listed.len().saturating_sub(1) as f64) as usize);
+        }
         let frame = context.session.frame();
         let event = frame.event_count;
         if self.scrolled_to.replace(event) == Some(event) {

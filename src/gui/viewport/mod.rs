@@ -369,6 +369,11 @@ impl Views {
         first.camera.orbit(angle, 0.0);
     }
 
+    /// Turns all views.
+    pub fn turn_all(&mut self, angle: f64) {
+        self.panes.iter_mut().for_each(|pane| pane.camera.orbit(angle, 0.0));
+    }
+
     pub fn set_overlays(&mut self, overlays: OverlaySet) {
         self.panes.iter_mut().for_each(|pane| pane.overlays = overlays);
     }
