@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::scene::{NodeKey, Scene};
+use crate::scene::{NodeKey, Scene, Touched};
 
 /// What the inspector can show that is neither a body nor a force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,15 +76,21 @@ impl Selection {
         self.place = None;
     }
 
-    /// Forgets what is no longer in the scene.
-    pub fn purge(&mut self, scene: Option<&Scene>) {
-        if self.keys.is_empty() {
+    /// Forgets what is no longer in the scene after an edit; only what that touched can have gone.
+    pub fn purge(&mut self, scene: Option<&Scene>, touched: &Touched) {
+        let Some(scene) = scene else {
+            self.keys.clear();
+            self.known.clear();
+            return;
+        };
+        let there =
+            || touched.bodies(scene).map(|body| body.key).chain(touched.forces(scene).map(|force| force.key));
+        if self.keys.is_empty() || there().count() == touched.keys.len() {
             return;
         }
-        let bodies = scene.into_iter().flat_map(|scene| &scene.bodies).map(|body| body.key);
-        let forces = scene.into_iter().flat_map(|scene| &scene.forces).map(|force| force.key);
-        let there: BTreeSet<NodeKey> = bodies.chain(forces).collect();
-        self.keys.retain(|key| there.contains(key));
-        self.known.retain(|key| there.contains(key));
+        let there: BTreeSet<NodeKey> = there().collect();
+        let stays = |key: &NodeKey| there.contains(key) || !touched.keys.contains(key);
+        self.keys.retain(stays);
+        self.known.retain(stays);
     }
 }

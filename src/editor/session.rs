@@ -115,6 +115,12 @@ impl Session {
         self.doc.history.open_gesture()
     }
 
+    /// Whether a drag or typing changes the document just now. What may lag behind it, such as the list of problems, is
+    /// made when the hand rests.
+    pub fn hand_moves(&self) -> bool {
+        self.open_gesture().is_some() && !self.run.pending.is_empty()
+    }
+
     /// Whether the document has changes that the running simulation takes on only at a reset.
     pub fn needs_reset(&self) -> bool {
         self.run.running.as_ref().is_some_and(|running| running.waiting.any())

@@ -24,7 +24,7 @@ impl Session {
 
     /// Brings an edit to the runner, at once or, inside a gesture, when it has settled.
     pub(super) fn document_changed(&mut self, touched: &Touched) {
-        self.selection.purge(self.doc.history.document().scene());
+        self.selection.purge(self.doc.history.document().scene(), touched);
         self.run.pending.extend(touched);
         if self.open_gesture().is_none() {
             self.sync();

@@ -256,6 +256,7 @@ impl App {
         let answered = !self.session().awaits_simulation();
         let busy =
             script.waits_for_simulation(answered) || self.accuracy.is_running() || self.dialogs.are_working();
+        let busy = busy || self.views.are_behind();
         // A person who drags does not wait for the simulation.
         let busy = busy
             && !script.edits.as_ref().is_some_and(EditBench::has_begun)

@@ -10,7 +10,8 @@ use super::widgets::{cell, mono, severity_icon};
 use crate::editor::{Action, Fix, Problem, ProblemSource, SessionCommand};
 use crate::scene::Severity;
 
-/// Keeps the list, which is made again only when document or frame changed.
+/// Keeps the list, which is made again only when document or frame changed, and not while a drag goes on: its search
+/// for overlaps looks at all bodies.
 #[derive(Default)]
 pub struct Problems {
     of: Option<(u64, u64, u64)>,
@@ -21,7 +22,7 @@ impl Problems {
     pub fn refresh(&mut self, context: &AppContext<'_>) {
         let session = context.session;
         let of = (session.opened_count(), session.document_state(), session.frame().revision);
-        if self.of != Some(of) {
+        if self.of != Some(of) && !session.hand_moves() {
             self.list = session.problems();
             self.of = Some(of);
         }

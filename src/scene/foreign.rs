@@ -44,7 +44,7 @@ impl Foreign {
         if matches!(info.content, Content::Anything) {
             return;
         }
-        for child in el.node.children.iter() {
+        for child in el.node.children(el.source).iter() {
             match child {
                 Child::Raw(text) => self.raw(text.get(el.source)),
                 Child::Element(node) => {

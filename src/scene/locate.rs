@@ -2,7 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
-use super::tree::{Child, Children, View};
+use super::tree::{Child, Children, Kept, View};
 use super::{NodeKey, Scene};
 
 /// The elements from the root down to the one with that key; empty if there is none.
@@ -21,7 +21,10 @@ fn descend<'a>(children: &'a Children, source: &'a str, key: NodeKey, chain: &mu
     }
     for node in elements() {
         chain.push(View { node, source });
-        if descend(&node.children, source, key, chain) {
+        // Nothing inside what is folded has a key that is asked for.
+        if let Kept::Listed(children) = node.kept(source)
+            && descend(children, source, key, chain)
+        {
             return true;
         }
         chain.pop();
@@ -67,7 +70,7 @@ pub(super) fn index(top: &Children, source: &str) -> Index {
     let Some(root) = root(top, source) else { return index };
     for list in [List::Bodies, List::Forces] {
         let Some(el) = list.find(root) else { continue };
-        for (at, child) in el.node.children.iter().enumerate() {
+        for (at, child) in el.node.children(source).iter().enumerate() {
             if let Child::Element(item) = child {
                 index.insert(item.key, (list, at));
             }
@@ -83,7 +86,7 @@ pub(super) fn item_chain(root: View<'_>, list: List, at: usize) -> Vec<View<'_>>
     for name in list.path() {
         chain.extend(chain.last().and_then(|el| el.child(name)));
     }
-    let item = chain.last().and_then(|el| el.node.children.get(at)).and_then(Child::element);
+    let item = chain.last().and_then(|el| el.node.children(source).get(at)).and_then(Child::element);
     chain.extend(item.map(|node| View { node, source }));
     chain
 }

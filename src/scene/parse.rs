@@ -1,7 +1,8 @@
 //! Text to tree: quick-xml finds the pieces, this adds the checks of well-formedness that it leaves out
 //! and keeps every byte. The first fault ends it.
 
-use std::sync::{Arc, OnceLock};
+use std::ops::Range;
+use std::sync::Arc;
 
 use quick_xml::Reader;
 use quick_xml::errors::IllFormedError;
@@ -11,8 +12,8 @@ use super::declaration;
 use super::rules::{
     FREE_PIECES, LEAST_BYTES_PER_ELEMENT, LEAST_BYTES_PER_PIECE, MAX_DEPTH, MAX_NODES, is_name, is_xml_char,
 };
-use super::shown;
 use super::tree::{Child, Children, Element, Keys, NO_PLACE, Text, tag};
+use super::{NodeKey, shown};
 
 /// Why a text is not well-formed XML that this program reads.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,10 +26,10 @@ pub(super) struct ParseFault {
     pub hint: String,
 }
 
-/// Parses a whole file.
+/// Parses a whole file, and checks it. Bodies are left folded.
 pub(super) fn document(source: &str, keys: &Keys) -> Result<Children, ParseFault> {
     check_characters(source)?;
-    let mut parser = Parser::new(source, keys, true);
+    let mut parser = Parser::new(source, Some(keys), Kind::File);
     if source.starts_with('\u{FEFF}') {
         return Err(parser.fault(0, "the file has two byte order marks", "remove one"));
     }
@@ -43,25 +44,57 @@ pub(super) fn document(source: &str, keys: &Keys) -> Result<Children, ParseFault
 /// Parses a piece of new XML that this program wrote; its nodes own their text.
 pub(super) fn fragment(xml: &str, keys: &Keys) -> Result<Vec<Child>, ParseFault> {
     check_characters(xml)?;
-    let mut parser = Parser::new(xml, keys, false);
+    let mut parser = Parser::new(xml, Some(keys), Kind::New);
     parser.run()?;
     Ok(parser.top)
 }
 
+/// What stands inside an element of a file that was checked. Nobody asks for these by a key.
+pub(super) fn inside(source: &str, piece: Range<u32>) -> Children {
+    let text = source.get(piece.start as usize..piece.end as usize).unwrap_or("");
+    // A reader leaves out a byte order mark at its beginning.
+    let mark = text.len() - text.trim_start_matches('\u{FEFF}').len();
+    let start = piece.start as usize + mark;
+    let mut parser = Parser::new(&text[mark..], None, Kind::Piece { start });
+    if mark > 0 {
+        parser.top.push(Child::Raw(Text::Source { start: piece.start, end: start as u32 }));
+    }
+    match parser.run() {
+        Ok(()) => parser.top.into(),
+        // It was checked; should it not divide all the same, it stays as one text.
+        Err(_) => vec![Child::Raw(Text::Source { start: piece.start, end: piece.end })].into(),
+    }
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    /// A whole file: texts refer to the source, and what may stand outside the root is checked.
+    File,
+    /// A piece of a file, which begins there.
+    Piece { start: usize },
+    /// Text that this program wrote.
+    New,
+}
+
+/// Elements around a body: the root and the list.
+const BODY_LEVEL: usize = 2;
+
 /// An element whose end tag has not come yet.
 struct Open<'a> {
     at: usize,
-    key: super::NodeKey,
+    key: NodeKey,
     tag: &'a str,
     children: Vec<Child>,
 }
 
 struct Parser<'a> {
     source: &'a str,
-    keys: &'a Keys,
-    /// A whole file: texts refer to the source, and what may stand outside the root is checked.
-    whole: bool,
+    /// None for what is in a body.
+    keys: Option<&'a Keys>,
+    kind: Kind,
     has_root: bool,
+    /// Whether the list of bodies is open.
+    in_bodies: bool,
     open: Vec<Open<'a>>,
     top: Vec<Child>,
     nodes: usize,
@@ -71,9 +104,19 @@ struct Parser<'a> {
 }
 
 impl<'a> Parser<'a> {
-    fn new(source: &'a str, keys: &'a Keys, whole: bool) -> Self {
+    fn new(source: &'a str, keys: Option<&'a Keys>, kind: Kind) -> Self {
         let (open, top, names) = Default::default();
-        Self { source, keys, whole, has_root: false, open, top, nodes: 0, elements: 0, names }
+        let (has_root, in_bodies) = (false, false);
+        Self { source, keys, kind, has_root, in_bodies, open, top, nodes: 0, elements: 0, names }
+    }
+
+    fn is_whole(&self) -> bool {
+        self.kind == Kind::File
+    }
+
+    /// Whether what comes now is inside a body, which is checked and left folded.
+    fn is_in_body(&self) -> bool {
+        self.in_bodies && self.open.len() > BODY_LEVEL
     }
 
     fn run(&mut self) -> Result<(), ParseFault> {
@@ -103,9 +146,9 @@ impl<'a> Parser<'a> {
             Event::Start(_) => self.start(start, piece)?,
             Event::Empty(_) => {
                 self.start(start, piece)?;
-                self.end(Text::empty());
+                self.end(None);
             }
-            Event::End(_) => self.end(self.text(start, end)),
+            Event::End(_) => self.end(Some(start..end)),
             Event::Text(_) => self.plain_text(start, end, piece)?,
             Event::CData(_) => self.inside_only(start, end, "a CDATA section stands outside the root")?,
             Event::GeneralRef(_) => {
@@ -133,7 +176,7 @@ impl<'a> Parser<'a> {
                 self.push(start, end);
             }
             Event::Decl(_) => {
-                if start > 0 || !self.whole {
+                if start > 0 || !self.is_whole() {
                     let hint = "move <?xml …?> to the very start of the file, or remove it";
                     return Err(self.fault(start, "an XML declaration stands inside the file", hint));
                 }
@@ -153,6 +196,9 @@ impl<'a> Parser<'a> {
 
     /// Refuses what would take too much memory, also in proportion to the file.
     fn check_amount(&self, at: usize) -> Result<(), ParseFault> {
+        if matches!(self.kind, Kind::Piece { .. }) {
+            return Ok(());
+        }
         if self.nodes > MAX_NODES {
             let message = format!("there are more than {MAX_NODES} pieces of XML");
             return Err(self.fault(at, &message, "divide the scene"));
@@ -170,7 +216,7 @@ impl<'a> Parser<'a> {
             let message = format!("elements are nested more than {MAX_DEPTH} deep");
             return Err(self.fault(at, &message, "a scene needs 6 levels"));
         }
-        if self.open.is_empty() && self.whole {
+        if self.open.is_empty() && self.is_whole() {
             if self.has_root {
                 return Err(self.fault(at, "there is a second root element", "a file holds one scene"));
             }
@@ -181,8 +227,16 @@ impl<'a> Parser<'a> {
             return Err(self.fault(at, "this is not a valid name of an element", hint));
         }
         // Open already, so that a fault in the tag names its element.
-        self.open.push(Open { at, key: self.keys.fresh(), tag, children: Vec::new() });
-        self.check_attributes(at, tag)
+        self.open.push(Open {
+            at,
+            key: self.keys.map_or(NodeKey::default(), Keys::fresh),
+            tag,
+            children: Vec::new(),
+        });
+        if self.open.len() == BODY_LEVEL {
+            self.in_bodies = self.is_whole() && tag::name(tag) == "Primitives";
+        }
+        if matches!(self.kind, Kind::Piece { .. }) { Ok(()) } else { self.check_attributes(at, tag) }
     }
 
     fn check_attributes(&mut self, at: usize, tag: &'a str) -> Result<(), ParseFault> {
@@ -210,22 +264,33 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    fn end(&mut self, close: Text) {
+    /// Ends an element, which has a tag for it or is one `<tag/>`.
+    fn end(&mut self, close: Option<Range<usize>>) {
         // The reader has checked that the names match, so there is an open element.
         let Some(open) = self.open.pop() else { return };
-        let element = Element {
-            key: open.key,
-            at: if self.whole { open.at as u32 } else { NO_PLACE },
-            open: self.text(open.at, open.at + open.tag.len()),
-            close,
-            children: Children::from(open.children),
-            reading: OnceLock::new(),
+        if self.is_in_body() {
+            return;
+        }
+        let at = match self.kind {
+            Kind::File => open.at as u32,
+            Kind::Piece { start } => (start + open.at) as u32,
+            Kind::New => NO_PLACE,
         };
+        let inner = open.at + open.tag.len();
+        let closing = close.clone().map_or(Text::empty(), |close| self.text(close.start, close.end));
+        let tags = [self.text(open.at, inner), closing];
+        let mut element = Element::read(open.key, at, tags, open.children);
+        if self.in_bodies
+            && self.open.len() == BODY_LEVEL
+            && let Some(close) = close
+        {
+            element = element.folded(inner as u32..close.start as u32);
+        }
         self.siblings().push(Child::Element(Arc::new(element)));
     }
 
     fn plain_text(&mut self, start: usize, end: usize, piece: &str) -> Result<(), ParseFault> {
-        let outside = self.open.is_empty() && self.whole;
+        let outside = self.open.is_empty() && self.is_whole();
         if outside && !piece.chars().all(super::number::is_space) {
             let blank = piece.len() - piece.trim_start().len();
             let hint = "only comments may stand there";
@@ -241,7 +306,7 @@ impl<'a> Parser<'a> {
     }
 
     fn inside_only(&mut self, start: usize, end: usize, message: &str) -> Result<(), ParseFault> {
-        if self.open.is_empty() {
+        if self.open.is_empty() && self.is_whole() {
             return Err(self.fault(start, message, "only comments may stand there"));
         }
         self.push(start, end);
@@ -282,16 +347,20 @@ impl<'a> Parser<'a> {
     }
 
     fn push(&mut self, start: usize, end: usize) {
+        if self.is_in_body() {
+            return;
+        }
         let text = self.text(start, end);
         self.siblings().push(Child::Raw(text));
     }
 
     fn text(&self, start: usize, end: usize) -> Text {
-        if self.whole {
-            // Files are at most 256 MiB.
-            Text::Source { start: start as u32, end: end as u32 }
-        } else {
-            Text::from(self.source.get(start..end).unwrap_or(""))
+        // Files are at most 256 MiB.
+        let of_source = |from: usize| Text::Source { start: (from + start) as u32, end: (from + end) as u32 };
+        match self.kind {
+            Kind::File => of_source(0),
+            Kind::Piece { start } => of_source(start),
+            Kind::New => Text::from(self.source.get(start..end).unwrap_or("")),
         }
     }
 

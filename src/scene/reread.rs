@@ -2,7 +2,7 @@
 //! on with them.
 
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use rustc_hash::FxHashMap;
 
@@ -34,7 +34,7 @@ impl Document {
         };
         let known: FxHashMap<(bool, &str), NodeKey> = labels(before).collect();
         let same = labels(after).filter_map(|(label, key)| Some((key, *known.get(&label)?)));
-        let tree = with_keys(top, &same.collect());
+        let tree = with_keys(top, &new.source.text, &same.collect());
         Self::of_tree(new.source.clone(), tree)
     }
 
@@ -54,16 +54,19 @@ fn labels(scene: &Scene) -> impl Iterator<Item = ((bool, &str), NodeKey)> {
 }
 
 /// The tree with other keys for some elements, which are read anew. Nothing inside bodies and forces has any.
-fn with_keys(children: &Children, keys: &FxHashMap<NodeKey, NodeKey>) -> Children {
+fn with_keys(children: &Children, source: &str, keys: &FxHashMap<NodeKey, NodeKey>) -> Children {
     let one = |child: &Child| match child {
         Child::Raw(text) => Child::Raw(text.clone()),
         Child::Element(el) => Child::Element(match keys.get(&el.key) {
             Some(key) => {
-                let children = el.children.clone();
-                Arc::new(Element { key: *key, ..el.with_children(children) })
+                let mut el = Element::clone(el);
+                (el.key, el.reading) = (*key, OnceLock::new());
+                Arc::new(el)
             }
             // A list, or what holds one.
-            None if el.reading.get().is_none() => Arc::new(el.with_children(with_keys(&el.children, keys))),
+            None if el.reading.get().is_none() => {
+                Arc::new(el.with_children(with_keys(el.children(source), source, keys)))
+            }
             None => el.clone(),
         }),
     };

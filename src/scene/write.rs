@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::tree::{Child, Children, Element};
+use super::tree::{Child, Children, Element, Kept};
 use super::{NodeKey, NumberStyle};
 
 /// The text of a list of children.
@@ -39,7 +39,7 @@ fn append_noting(
             }
             Child::Element(el) => {
                 out.push_str(el.open.get(source));
-                append_noting(&el.children, source, out, places);
+                append_noting(el.children(source), source, out, places);
                 out.push_str(el.close.get(source));
             }
             Child::Raw(text) => out.push_str(text.get(source)),
@@ -50,7 +50,10 @@ fn append_noting(
 /// Appends the text of one element.
 pub(super) fn element(element: &Element, source: &str, out: &mut String) {
     out.push_str(element.open.get(source));
-    append(&element.children, source, out);
+    match element.kept(source) {
+        Kept::Listed(children) => append(children, source, out),
+        Kept::Piece(piece) => out.push_str(piece),
+    }
     out.push_str(element.close.get(source));
 }
 

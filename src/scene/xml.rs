@@ -51,7 +51,7 @@ impl<'a> XmlElement<'a> {
 
     /// The text right inside, references resolved, without the spaces around it.
     pub fn text(self) -> String {
-        let pieces = self.view.node.children.iter().filter_map(|child| match child {
+        let pieces = self.view.node.children(self.view.source).iter().filter_map(|child| match child {
             Child::Raw(text) => Some(text.get(self.view.source)),
             Child::Element(_) => None,
         });

@@ -6,7 +6,7 @@ use glam::{DVec3, Mat4, Vec2, Vec3};
 use super::{Color, Viewport};
 
 /// Everything that one view shows, ready to be drawn.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct DrawList {
     /// Differs whenever the content may differ; 0 = not known, never cached. Set by [`super::ListCache`].
     pub revision: u64,

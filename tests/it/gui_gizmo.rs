@@ -263,3 +263,31 @@ fn handles_are_hidden_when_nothing_can_be_dragged() {
     window.click("Lock 7");
     assert!(!window.has_knob("Move along x", "Top"), "locked");
 }
+
+/// Symptom: dragging one of 10 000 bodies looked for overlaps among all of them in every frame. Expected: the list of
+/// problems is made when the hand rests; then, and after the drag, it is right.
+#[test]
+fn problems_are_looked_for_when_the_hand_rests() {
+    let mut window = scene();
+    window.click_role(Role::TreeItem, "7");
+    let metre = window.on_view(1, "Top view", DVec3::X).x - window.on_view(1, "Top view", DVec3::ZERO).x;
+    let from = window.knob("Move along x", "Top");
+    let to = from + vec2(3.5 * metre, 0.0);
+    window.press(&[from, from + vec2(metre, 0.0), to], PRIMARY, Modifiers::NONE);
+    assert!(window.body("7").position.x > 6.2, "it is dragged into ball 8");
+    assert!(!window.has_containing("Problems ("), "the hand moves");
+    std::thread::sleep(std::time::Duration::from_millis(200));
+    window.harness.step();
+    assert!(window.has_containing("Problems (1 warning)"), "{:?}", window.labels());
+
+    let away = from + vec2(metre, 0.0);
+    window.harness.event(Event::PointerMoved(away));
+    window.harness.step();
+    window.harness.step();
+    assert!(window.has_containing("Problems (1 warning)"), "the hand moves");
+    let release =
+        Event::PointerButton { pos: away, button: PRIMARY, pressed: false, modifiers: Modifiers::NONE };
+    window.harness.event(release);
+    window.harness.run();
+    assert!(!window.has_containing("Problems ("), "{:?}", window.labels());
+}

@@ -79,3 +79,28 @@ fn a_file_of_nothing_but_tiny_elements_is_refused_early() {
         format!("<PolyPhysicsXml Version=\"1.0\">{map}<Primitives>{bodies}</Primitives></PolyPhysicsXml>");
     assert!(!Document::from_bytes(text.as_bytes()).has_errors());
 }
+
+/// Bodies are kept as one piece of text until one of them is edited. Whatever stands in one comes back to the byte, and
+/// an edit changes nothing else.
+#[test]
+fn what_stands_in_a_body_comes_back_edited_or_not() {
+    let odd = "\u{FEFF}<!-- a --><?x y?><![CDATA[<]]>&amp;<Unknown a='1'><b/></Unknown>";
+    let (start, end) = (BALL.find('>').unwrap() + 1, BALL.rfind("</").unwrap());
+    for at in [start, end] {
+        let body = format!("{}{odd}{}", &BALL[..at], &BALL[at..]);
+        let text = scene_with("", &body);
+        let document = Document::from_bytes(text.as_bytes());
+        assert_eq!(document.to_bytes(), text.as_bytes());
+        let key = document.scene().unwrap().bodies[0].key;
+        let change = BodyChange::Position(DVec3::new(1.5, 2.5, 3.5));
+        let moved = document.apply(&Edit::Body { key, change }).unwrap().document;
+        assert_eq!(document.to_bytes(), text.as_bytes());
+        let again = Document::from_bytes(&moved.to_bytes());
+        assert!(String::from_utf8(moved.to_bytes()).unwrap().contains(odd));
+        for document in [&moved, &again] {
+            assert_eq!(document.scene().unwrap().bodies[0].position, DVec3::new(1.5, 2.5, 3.5));
+            assert_eq!(document.diagnostics().len(), again.diagnostics().len());
+        }
+        assert_eq!(moved.foreign(), again.foreign());
+    }
+}

@@ -86,7 +86,7 @@ pub fn collect(scene: &Scene, filter: &str, closed: &[Group], open_named: &BTree
         rows.extend([Row::Place(Place::Map), Row::Place(Place::Simulation)]);
     }
     let is_found = |group: &Option<String>, texts: &[&str]| {
-        matches(&words, &[texts, &[group.as_deref().unwrap_or_default()]].concat())
+        words.is_empty() || matches(&words, &[texts, &[group.as_deref().unwrap_or_default()]].concat())
     };
     let force_found =
         |force: &Force| is_found(&force.group, &[force.display_name(), &force.label, force_kind(force)]);

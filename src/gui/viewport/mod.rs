@@ -10,6 +10,7 @@ mod linking;
 mod manipulate;
 mod pane;
 mod rubber;
+mod turns;
 
 use std::sync::Arc;
 
@@ -30,6 +31,7 @@ use crate::view::{
 pub use canvas::Canvas;
 use gestures::Gestures;
 use pane::Pane;
+use turns::Turns;
 
 /// How many views are shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -82,6 +84,7 @@ pub struct Views {
     pub local_axes: bool,
     canvas: Canvas,
     start: StartFrame,
+    turns: Turns,
 }
 
 /// Ways of the bodies that are shown, s: what a person can follow.
@@ -147,7 +150,13 @@ impl Views {
             local_axes: false,
             canvas,
             start: StartFrame::default(),
+            turns: Turns::default(),
         }
+    }
+
+    /// Whether a view waits for its turn to show what is now.
+    pub fn are_behind(&self) -> bool {
+        self.turns.are_behind()
     }
 
     pub fn remembered(&self) -> Remembered {
@@ -197,6 +206,7 @@ impl Views {
             pane.wants_framing = true;
             pane.company = None;
             pane.flying = None;
+            pane.forget_picture();
             // what was being dragged belongs to the scene before
             pane.gestures = Gestures::default();
         }
@@ -248,9 +258,16 @@ impl Views {
         };
         let rect = snapped(area, ui.pixels_per_point());
         let marked = index == self.active && self.layout != Layout::One;
+        let shown: [bool; VIEWS.len()] = std::array::from_fn(|view| self.is_shown(view));
+        self.turns.begin(ui.ctx().cumulative_frame_nr(), |view| view != self.active && shown[view]);
+        let is_next = index == self.active || self.turns.has(index);
         let Some(pane) = self.panes.get_mut(index) else { return false };
         let (framed, before) = (pane.wants_framing, pane.middle());
-        let outcome = pane.show(ui, rect, &scenery, (marked, index == self.active));
+        let outcome = pane.show(ui, rect, &scenery, (marked, index == self.active), is_next);
+        if outcome.behind {
+            self.turns.wait();
+            ui.ctx().request_repaint();
+        }
         if framed {
             self.share_widest();
         } else {

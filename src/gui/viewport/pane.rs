@@ -40,6 +40,8 @@ pub struct Outcome {
     pub maximize: bool,
     /// The grip is dragged: the view goes to another place in the window.
     pub moved: bool,
+    /// It shows what was before, and waits for its turn.
+    pub behind: bool,
 }
 
 impl Pane {
@@ -61,6 +63,11 @@ impl Pane {
         }
     }
 
+    /// Another document: no view shows the one before.
+    pub(super) fn forget_picture(&mut self) {
+        self.cache = ListCache::default();
+    }
+
     pub fn aspect(&self) -> f64 {
         f64::from(self.size.x.max(1.0)) / f64::from(self.size.y.max(1.0))
     }
@@ -70,13 +77,15 @@ impl Pane {
         f64::from(self.size.y.max(1.0))
     }
 
-    /// `tools` says whether the choice of handles is shown in this view.
+    /// `tools` says whether the choice of handles is shown in this view, `is_next` whether it is drawn anew in this
+    /// turn of the window however large the scene is.
     pub fn show(
         &mut self,
         ui: &mut Ui,
         rect: Rect,
         scenery: &Scenery<'_>,
         (marked, tools): (bool, bool),
+        is_next: bool,
     ) -> Outcome {
         self.size = rect.size();
         if std::mem::take(&mut self.wants_framing)
@@ -95,7 +104,10 @@ impl Pane {
         let pixels_per_point = ui.pixels_per_point();
         let mut input = scenery.input(self, rect, pixels_per_point);
         input.hovered = hover.as_ref().map(|hover| hover.key);
-        let list = self.cache.get(&input, scenery.shown.revision);
+        let waits = !is_next && !response.contains_pointer();
+        let kept = self.cache.kept().filter(|_| waits && !self.cache.knows(&input, scenery.shown.revision));
+        let behind = kept.is_some();
+        let list = kept.unwrap_or_else(|| self.cache.get(&input, scenery.shown.revision));
         scenery.canvas.draw(ui, self.index, rect, &list);
 
         self.draw_rubber_band(ui, rect);
@@ -122,7 +134,8 @@ impl Pane {
             Self::tools(ui, rect, scenery);
         }
         let pressed = response.is_pointer_button_down_on() || response.clicked();
-        Outcome { activated: pressed || asked.activate, maximize: asked.maximize, moved: asked.moved }
+        let activated = pressed || asked.activate;
+        Outcome { activated, maximize: asked.maximize, moved: asked.moved, behind }
     }
 
     pub fn look_from(&mut self, axis: Option<AxisView>) {

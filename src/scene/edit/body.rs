@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::cosmetic;
+use super::patch::reading_after;
 use super::pen::{Changed, Pen, Spot, check, check_text, check_vector};
 use super::settings::vector;
 use super::{BodyChange, EditError, compose};
@@ -11,8 +12,17 @@ use crate::scene::read::{BODY_ORDER, SHAPES};
 use crate::scene::rules::Range;
 use crate::scene::tree::{Child, Element};
 
-/// Applies one change to a body's element.
+/// Applies one change to a body's element, which is not read again where the change says what it means.
 pub(super) fn change(pen: Pen<'_>, el: &Arc<Element>, lead: &str, change: &BodyChange) -> Changed {
+    let changed = written(pen, el, lead, change)?;
+    let before = el.reading.get().filter(|_| !Arc::ptr_eq(&changed, el));
+    if let Some(now) = before.and_then(|before| reading_after(before, change)) {
+        changed.reading.get_or_init(|| Arc::new(now));
+    }
+    Ok(changed)
+}
+
+fn written(pen: Pen<'_>, el: &Arc<Element>, lead: &str, change: &BodyChange) -> Changed {
     let dynamic = pen.view(el).name() == "SoftObject";
     let leaf = |name, numbers: &[_], default| pen.with_leaf(el, lead, (name, &BODY_ORDER), numbers, default);
     match change {
@@ -132,7 +142,8 @@ fn set_shape(pen: Pen<'_>, el: &Arc<Element>, lead: &str, shape: &Shape) -> Chan
             .element()
             .is_some_and(|node| SHAPES.contains(&crate::scene::tree::tag::name(node.open.get(source))))
     };
-    let mut places = el.children.iter().enumerate().filter(|(_, child)| is_shape(child)).map(|(at, _)| at);
+    let mut places =
+        el.children(source).iter().enumerate().filter(|(_, child)| is_shape(child)).map(|(at, _)| at);
     let Some(first) = places.next() else {
         return pen.with_new(el, lead, Spot::Ordered(&BODY_ORDER), shape_name(shape), |lead| {
             compose::shape(pen, lead, shape)

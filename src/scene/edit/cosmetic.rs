@@ -11,7 +11,8 @@ use crate::scene::tree::{Child, Element, tag};
 pub(super) fn set(pen: Pen<'_>, el: &Arc<Element>, lead: &str, name: &str, value: Option<&str>) -> Changed {
     let source = &pen.source.text;
     let instruction = |child: &Child| raw(child, source).filter(|raw| is_cosmetic(raw)).map(str::to_owned);
-    let found = el.children.iter().enumerate().find_map(|(at, child)| Some((at, instruction(child)?)));
+    let found =
+        el.children(source).iter().enumerate().find_map(|(at, child)| Some((at, instruction(child)?)));
     let Some((at, old)) = found else {
         let Some(value) = value else { return Ok(el.clone()) };
         let xml = format!("<?polyscene{}?>", pen.attribute(name, value));
@@ -33,10 +34,10 @@ pub(super) fn set(pen: Pen<'_>, el: &Arc<Element>, lead: &str, name: &str, value
         None => tag::without(&old, name),
     };
     let children = if tag::attributes(&new).next().is_some() {
-        el.children.splice(at..at + 1, vec![Child::Raw(new.into())])
+        el.children(source).splice(at..at + 1, vec![Child::Raw(new.into())])
     } else {
-        let (start, end) = unit(&el.children, at, source);
-        el.children.splice(start..end, Vec::new())
+        let (start, end) = unit(el.children(source), at, source);
+        el.children(source).splice(start..end, Vec::new())
     };
     Ok(Arc::new(el.with_children(children)))
 }
@@ -45,7 +46,7 @@ pub(super) fn set(pen: Pen<'_>, el: &Arc<Element>, lead: &str, name: &str, value
 pub(super) fn get(pen: Pen<'_>, el: &Element, name: &str) -> Option<String> {
     let source = &pen.source.text;
     let instruction =
-        el.children.iter().filter_map(|child| raw(child, source)).find(|raw| is_cosmetic(raw))?;
+        el.children(source).iter().filter_map(|child| raw(child, source)).find(|raw| is_cosmetic(raw))?;
     let value = quick_xml::escape::unescape(tag::find(instruction, name)?.raw).ok()?;
     Some(value.into_owned())
 }

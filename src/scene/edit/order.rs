@@ -31,10 +31,13 @@ impl Work<'_> {
         self.check_order(list, &moved, (side, anchor_at))?;
         let source = &self.pen.source.text;
         self.section(list.path(), |pen, el, _| {
-            if is_there(&el.children, &moved, (side, anchor_at)) {
+            if is_there(el.children(source), &moved, (side, anchor_at)) {
                 return Ok(el.clone());
             }
-            Ok(pen.with_splices(el, splices(&el.children, &moved, (side, anchor_at), source).into_iter()))
+            Ok(pen.with_splices(
+                el,
+                splices(el.children(source), &moved, (side, anchor_at), source).into_iter(),
+            ))
         })?;
         self.touched.cosmetics = true;
         self.forget_places();

@@ -40,7 +40,7 @@ impl<'a> Pen<'a> {
     pub fn child_at(self, el: &Element, name: &str) -> Option<usize> {
         let source = &self.source.text;
         let is_it = |child: &Child| child.element().is_some_and(|node| View { node, source }.name() == name);
-        el.children.iter().position(is_it)
+        el.children(source).iter().position(is_it)
     }
 
     /// Sets an attribute to a text, escaped as need be.
@@ -105,12 +105,16 @@ impl<'a> Pen<'a> {
         at: usize,
         change: impl FnOnce(&Arc<Element>, &str) -> Changed,
     ) -> Changed {
-        let Some(old) = el.children.get(at).and_then(Child::element) else { return Err(EditError::Gone) };
-        let new = change(old, &lead_at(&el.children, at, &self.source.text))?;
+        let Some(old) = el.children(&self.source.text).get(at).and_then(Child::element) else {
+            return Err(EditError::Gone);
+        };
+        let new = change(old, &lead_at(el.children(&self.source.text), at, &self.source.text))?;
         if Arc::ptr_eq(&new, old) {
             return Ok(el.clone());
         }
-        Ok(Arc::new(el.with_children(el.children.splice(at..at + 1, vec![Child::Element(new)]))))
+        Ok(Arc::new(
+            el.with_children(el.children(&self.source.text).splice(at..at + 1, vec![Child::Element(new)])),
+        ))
     }
 
     /// Replaces ranges of children, which are in order; the very same element if there are none.
@@ -119,7 +123,7 @@ impl<'a> Pen<'a> {
         if splices.is_empty() {
             return el.clone();
         }
-        Arc::new(el.with_children(el.children.splice_all(splices)))
+        Arc::new(el.with_children(el.children(&self.source.text).splice_all(splices)))
     }
 
     /// Adds the new child `name` that `xml` writes, given the white space before it.
@@ -133,7 +137,7 @@ impl<'a> Pen<'a> {
     ) -> Changed {
         let (at, near) = self.insertion(el, spot, name);
         let inner = match near {
-            Some(near) => lead_at(&el.children, near, &self.source.text),
+            Some(near) => lead_at(el.children(&self.source.text), near, &self.source.text),
             None => self.style.inner_lead(lead),
         };
         let new = parse::fragment(&xml(&inner), &self.source.keys)
@@ -156,30 +160,33 @@ impl<'a> Pen<'a> {
             added.push(Child::Raw(inner.into()));
         }
         added.extend(new);
-        if el.children.len() == 0 && breaks {
+        if el.children(&self.source.text).len() == 0 && breaks {
             added.push(Child::Raw(lead.into()));
         }
-        let changed = el.with_children(el.children.splice(at..at, added));
+        let mut changed = el.with_children(el.children(&self.source.text).splice(at..at, added));
         if is_open(el, &self.source.text) {
             return changed;
         }
         let tag = el.open.get(&self.source.text);
         let open = format!("{}>", tag.trim_end_matches("/>").trim_end());
-        Element { open: open.into(), close: format!("</{}>", tag::name(tag)).into(), ..changed }
+        changed.close = format!("</{}>", tag::name(tag)).into();
+        changed.open = open.into();
+        changed
     }
 
     /// Adds children behind the last one, each on a line of its own as that one is.
     pub fn with_appended(self, el: &Element, new: Vec<Child>) -> Element {
         let (at, near) = self.insertion(el, Spot::Last, "");
-        let lead = near.map_or(String::new(), |near| lead_at(&el.children, near, &self.source.text));
+        let lead = near
+            .map_or(String::new(), |near| lead_at(el.children(&self.source.text), near, &self.source.text));
         let space = || (!lead.is_empty()).then(|| Child::Raw(lead.as_str().into()));
         let added = new.into_iter().flat_map(|child| space().into_iter().chain([child])).collect();
-        el.with_children(el.children.splice(at..at, added))
+        el.with_children(el.children(&self.source.text).splice(at..at, added))
     }
 
     /// The index for a new child, and the sibling whose indentation it copies.
     fn insertion(self, el: &Element, spot: Spot<'_>, name: &str) -> (usize, Option<usize>) {
-        let children = &el.children;
+        let children = el.children(&self.source.text);
         let source = &self.source.text;
         let elements = || children.iter().enumerate().filter(|(_, child)| child.element().is_some());
         let first = elements().next().map(|(at, _)| at);
@@ -209,8 +216,8 @@ impl<'a> Pen<'a> {
 
     /// The element without a child, the white space before it and the comments behind it on its line.
     pub fn without_child(self, el: &Element, at: usize) -> Element {
-        let (start, end) = unit(&el.children, at, &self.source.text);
-        el.with_children(el.children.splice(start..end, Vec::new()))
+        let (start, end) = unit(el.children(&self.source.text), at, &self.source.text);
+        el.with_children(el.children(&self.source.text).splice(start..end, Vec::new()))
     }
 
     /// `<Name A="1" B="2" />`
@@ -229,13 +236,15 @@ impl<'a> Pen<'a> {
 
     /// A copy whose nodes have keys of their own.
     pub fn copy(self, el: &Element) -> Element {
-        let children = el.children.iter().map(|child| match child {
+        let children = el.children(&self.source.text).iter().map(|child| match child {
             Child::Element(child) => Child::Element(Arc::new(self.copy(child))),
             Child::Raw(text) => Child::Raw(text.clone()),
         });
         let children = Children::from(children.collect::<Vec<_>>());
         let key = self.source.keys.fresh();
-        Element { key, at: crate::scene::tree::NO_PLACE, ..el.with_children(children) }
+        let mut copy = el.with_children(children);
+        (copy.key, copy.at) = (key, crate::scene::tree::NO_PLACE);
+        copy
     }
 }
 

@@ -49,11 +49,11 @@ pub(super) fn set_params(
         return pen
             .with_new(simulation, lead, Spot::Ordered(order), "Solver", |_| pen.leaf("Solver", &wanted));
     };
-    let Some(solver) = simulation.children.get(at).and_then(Child::element) else {
+    let Some(solver) = simulation.children(&pen.source.text).get(at).and_then(Child::element) else {
         return Err(EditError::Gone);
     };
     let solver = without_defaults(pen, &pen.with_numbers(solver, &wanted), params);
-    if pen.view(&solver).attributes().next().is_none() && solver.children.len() == 0 {
+    if pen.view(&solver).attributes().next().is_none() && solver.children(&pen.source.text).len() == 0 {
         return Ok(Arc::new(pen.without_child(simulation, at)));
     }
     pen.with_child(simulation, at, |_, _| Ok(solver))

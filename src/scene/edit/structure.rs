@@ -46,7 +46,7 @@ impl Work<'_> {
         let mut added = None;
         self.section(list.path(), |pen, el, lead| {
             let el = pen.with_new(el, lead, Spot::Last, name, |lead| xml(pen, lead))?;
-            added = el.children.iter().rev().find_map(Child::element).map(|node| node.key);
+            added = el.children(&pen.source.text).iter().rev().find_map(Child::element).map(|node| node.key);
             Ok(el)
         })?;
         self.touched.keys.extend(added);
@@ -59,7 +59,7 @@ impl Work<'_> {
         let source = self.pen.source;
         for (list, places) in self.places(keys)? {
             self.section(list.path(), |pen, el, _| {
-                let unit = |at| unit(&el.children, at, &source.text);
+                let unit = |at| unit(el.children(&source.text), at, &source.text);
                 let ranges = places.iter().map(|&(at, _)| unit(at));
                 Ok(pen.with_splices(el, ranges.map(|(start, end)| (start..end, Vec::new()))))
             })?;
@@ -118,8 +118,9 @@ impl Work<'_> {
         self.section(list.path(), |pen, el, _| {
             let mut copies = Vec::with_capacity(places.len());
             for ((nth, &at), id) in places.iter().enumerate().zip(ids) {
-                let original = el.children.get(at).and_then(Child::element).ok_or(EditError::Gone)?;
-                let lead = lead_at(&el.children, at, &pen.source.text);
+                let original =
+                    el.children(&pen.source.text).get(at).and_then(Child::element).ok_or(EditError::Gone)?;
+                let lead = lead_at(el.children(&pen.source.text), at, &pen.source.text);
                 let copy = pen.with_text(&Arc::new(pen.copy(original)), "UserID", &id.to_string());
                 let name = cosmetic::get(pen, &copy, "name").filter(|name| !name.is_empty());
                 let copy = match name {

@@ -49,7 +49,7 @@ impl Style {
             numbers = values.find_map(|attr| number::style_of(attr.raw));
             numbers.is_some()
         });
-        let indent = root.and_then(|root| lead_in(&root.node.children, source)).unwrap_or_default();
+        let indent = root.and_then(|root| lead_in(root.node.children(source), source)).unwrap_or_default();
         let indent = match indent.trim_start_matches(['\r', '\n']) {
             "" if newline.is_empty() => "",
             "" => "  ",

@@ -1,6 +1,6 @@
 //! What an edit touched: known from the edit itself, so that nobody compares whole scenes to find out.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::scene::{Body, Force, NodeKey, Scene};
 
@@ -29,8 +29,9 @@ impl Touched {
 
     /// What of this differs between two scenes.
     pub fn that_differs(&self, before: &Scene, after: &Scene) -> Self {
-        let (old, new) = (self.items(before), self.items(after));
-        let keys = self.keys.iter().copied().filter(|key| old.get(key) != new.get(key)).collect();
+        let bodies = self.differing(&before.bodies, &after.bodies, |body| body.key);
+        let forces = self.differing(&before.forces, &after.forces, |force| force.key);
+        let keys = bodies.into_iter().chain(forces).collect();
         let settings = self.settings
             && (before.map != after.map
                 || before.params != after.params
@@ -38,10 +39,20 @@ impl Touched {
         Self { keys, settings, cosmetics: self.cosmetics }
     }
 
-    /// The touched bodies and forces of a scene.
-    fn items<'s>(&self, scene: &'s Scene) -> std::collections::BTreeMap<NodeKey, Item<'s>> {
-        let bodies = self.bodies(scene).map(|body| (body.key, Item::Body(body)));
-        bodies.chain(self.forces(scene).map(|force| (force.key, Item::Force(force)))).collect()
+    /// The touched items of a list that differ or are in one of both versions only.
+    fn differing<T: PartialEq>(&self, before: &[T], after: &[T], key: fn(&T) -> NodeKey) -> Vec<NodeKey> {
+        let pairs = || before.iter().zip(after);
+        // Most edits leave the order of the list, where what belongs together stands in one place.
+        if before.len() == after.len() && pairs().all(|(old, new)| key(old) == key(new)) {
+            let touched = pairs().filter(|(_, new)| self.keys.contains(&key(new)));
+            return touched.filter(|(old, new)| old != new).map(|(_, new)| key(new)).collect();
+        }
+        let by_key = |items: &'_ [T]| items.iter().enumerate().map(|(at, item)| (key(item), at)).collect();
+        let (old, new): (BTreeMap<NodeKey, usize>, BTreeMap<NodeKey, usize>) =
+            (by_key(before), by_key(after));
+        let of_old = |of: &NodeKey| old.get(of).and_then(|at| before.get(*at));
+        let of_new = |of: &NodeKey| new.get(of).and_then(|at| after.get(*at));
+        self.keys.iter().copied().filter(|of| of_old(of) != of_new(of)).collect()
     }
 
     /// The touched bodies of a scene, in file order.
@@ -53,10 +64,4 @@ impl Touched {
     pub fn forces<'s>(&self, scene: &'s Scene) -> impl Iterator<Item = &'s Force> {
         scene.forces.iter().filter(|force| self.keys.contains(&force.key))
     }
-}
-
-#[derive(PartialEq)]
-enum Item<'s> {
-    Body(&'s Body),
-    Force(&'s Force),
 }

@@ -188,8 +188,9 @@ impl<'d> Work<'d> {
         let mut changed = Changes::new();
         self.section(list.path(), |pen, el, _| {
             for (at, (_, to)) in places.into_iter().zip(changes) {
-                let old = el.children.get(at).and_then(Child::element).ok_or(EditError::Gone)?;
-                let lead = lead_at(&el.children, at, &pen.source.text);
+                let old =
+                    el.children(&pen.source.text).get(at).and_then(Child::element).ok_or(EditError::Gone)?;
+                let lead = lead_at(el.children(&pen.source.text), at, &pen.source.text);
                 let new = change(pen, changed.get(&at).map_or(old, |(_, new)| new), &lead, to)?;
                 if !Arc::ptr_eq(&new, old) {
                     changed.insert(at, (old.clone(), new));
@@ -230,7 +231,7 @@ impl<'d> Work<'d> {
     pub fn items_with_places(&self, list: List) -> Vec<(usize, Arc<Element>)> {
         let root = locate::root(&self.top, &self.pen.source.text);
         let el = root.and_then(|root| list.find(root));
-        let children = el.into_iter().flat_map(|el| el.node.children.iter().enumerate());
+        let children = el.into_iter().flat_map(|el| el.node.children(el.source).iter().enumerate());
         children.filter_map(|(at, child)| Some((at, child.element()?.clone()))).collect()
     }
 

@@ -19,5 +19,5 @@ pub(super) use cosmetic::is_cosmetic;
 pub(super) use feature::NAMES as NEW;
 #[cfg(test)]
 pub(super) use force::FORCES;
-pub(super) use item::ItemReading;
+pub(super) use item::{Item, ItemReading};
 pub(super) use scene::{Meaning, read};

@@ -110,7 +110,7 @@ impl Reader {
 
     fn bodies(&mut self, el: View<'_>, scene: &mut Scene) {
         // The other half is white space.
-        scene.bodies.reserve(el.node.children.len() / 2);
+        scene.bodies.reserve(el.node.children(el.source).len() / 2);
         self.list(el, "/PolyPhysicsXml/Primitives", ItemReading::of_body, |item, label| {
             if let Item::Body(body) = item {
                 let (id, label) = (label.id, label.text());
@@ -136,7 +136,10 @@ impl Reader {
         }
         self.take(&log.problems, path, el);
         let items = el.elements().take(MAX_ITEMS).map(|el| {
-            let reading = el.node.reading.get_or_init(|| Arc::new(read(el)));
+            let reading = el.node.reading.get_or_init(|| {
+                let node = &el.node.unfolded(el.source);
+                Arc::new(read(View { node, source: el.source }))
+            });
             (el, reading)
         });
         let items = items.collect::<Vec<_>>();

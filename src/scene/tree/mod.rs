@@ -7,5 +7,5 @@ pub(in crate::scene) mod tag;
 mod view;
 
 pub(in crate::scene) use children::{Child, Children, Splice};
-pub(in crate::scene) use element::{Element, Keys, NO_PLACE, Text};
+pub(in crate::scene) use element::{Element, Kept, Keys, NO_PLACE, Text};
 pub(in crate::scene) use view::{RawKind, View, raw_kind};

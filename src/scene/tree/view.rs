@@ -37,7 +37,7 @@ impl<'a> View<'a> {
     /// The child elements.
     pub fn elements(self) -> impl DoubleEndedIterator<Item = View<'a>> {
         let source = self.source;
-        self.node.children.iter().filter_map(Child::element).map(move |node| View { node, source })
+        self.node.children(source).iter().filter_map(Child::element).map(move |node| View { node, source })
     }
 
     /// The first child element of that name.
@@ -48,7 +48,7 @@ impl<'a> View<'a> {
     /// The children that are no elements, as written.
     pub fn raws(self) -> impl Iterator<Item = &'a str> {
         let source = self.source;
-        self.node.children.iter().filter_map(move |child| match child {
+        self.node.children(source).iter().filter_map(move |child| match child {
             Child::Raw(text) => Some(text.get(source)),
             Child::Element(_) => None,
         })

@@ -7,7 +7,8 @@ use crate::view::format::round_down_125;
 use crate::view::stage::Stage;
 use crate::view::{Arrow, Camera, Color, DrawList, Viewport, format::number};
 
-const MOST: usize = 5000;
+/// More arrows are a thicket, and each takes as long to draw as a ball.
+const MOST: usize = 1000;
 
 /// Length of the longest arrow, and the shortest that a quantity above zero is drawn with, points.
 const LONGEST: f64 = 90.0;
