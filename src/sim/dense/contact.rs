@@ -92,14 +92,12 @@ fn against(model: &Model, state: &State, one: &Stepped, other: BodyId) -> (DVec3
 }
 
 /// The bound that keeps bodies apart: they may come as near as they are. Those that overlap part no faster than they
-/// met, and where that is slow, at a share of it: else they would tremble for ever, in and out by turns, and where more
-/// contacts are closed than there are ways to move, nothing but that would do, which sweeps find slowly. Those that
-/// overlap by less than `room` need not part at all.
+/// met, and where that is within `room` and slow, at a share of it: else they would tremble for ever, in and out by turns.
 fn landing(gap: f64, rate: f64, h: f64, (room, slow): (f64, f64)) -> f64 {
-    let share = if -rate < slow { PARTING } else { 1.0 };
     if gap <= -room {
-        (-gap / h).min(share * (-rate).max(0.0))
+        (-gap / h).min((-rate).max(0.0))
     } else if rate < 0.0 {
+        let share = if -rate < slow { PARTING } else { 1.0 };
         -gap.max(share * h * rate) / h
     } else {
         -gap.max((h * rate).min(gap + room)) / h

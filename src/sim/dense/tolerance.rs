@@ -48,8 +48,8 @@ pub(super) const MOST_ATTEMPTS: u32 = 8;
 /// Overlap from which bodies need not part, in radii: room to give back what the curvature of a way opened.
 pub(super) const ROOM: f64 = 4e-4;
 
-/// Whoever meets slower than g·h parts at this share of the speed at which it met. At 1 heaps tremble for ever, and sweeps
-/// take hundreds where more contacts are closed than there are ways to move; at 0 they stay where they overlap.
+/// Within that room they part at this share of the speed at which they met. At 1 they tremble for ever, at 0 they stay
+/// where they overlap.
 pub(super) const PARTING: f64 = 0.5;
 
 /// Bodies that meet slower than so many times g·h land: a bounce shorter than twice as many steps is not resolved.
