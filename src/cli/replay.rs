@@ -7,12 +7,13 @@ use std::sync::Arc;
 use clap::Args;
 
 use super::limits::LimitArgs;
-use super::output::LineSink;
+use super::output::{LineSink, overwrites};
 use super::{CliError, input, number};
 use crate::record::{
     Compared, Frame, InlineRunner, MOST_BYTES, RecordingFile, Rerun, RerunError, RunCommand, RunState,
     Runner as _,
 };
+use crate::scene::shown_path;
 use crate::sim::Fault;
 
 /// Run a recording again
@@ -50,6 +51,12 @@ pub struct ReplayArgs {
 
 pub(super) fn replay(args: &ReplayArgs) -> Result<(), CliError> {
     let name = input::display_name(&args.file);
+    if args.events.as_deref().is_some_and(|events| overwrites(events, &args.file)) {
+        return Err(CliError::Usage(format!(
+            "--events would overwrite the recording {}",
+            shown_path(&args.file)
+        )));
+    }
     let of = |error: RerunError| stopped(&name, error);
     let file = RecordingFile::read(&read(&args.file)?).map_err(|error| of(error.into()))?;
     let _watchdog = args.limits.watchdog();

@@ -171,12 +171,15 @@ impl Session {
     /// Saves to the document's file, or asks where to; then does `then`.
     pub(super) fn save(&mut self, then: Option<Intent>) {
         self.settle();
-        match (self.doc.file.path.clone(), self.doc.file.stamp) {
-            (Some(path), Some(stamp)) if has_changed(&path, stamp) => {
+        // A file that was gone for a while, or is known from a recovery alone, may be somebody else's now.
+        let is_foreign =
+            |path: &Path| self.doc.file.stamp.map_or_else(|| path.exists(), |stamp| has_changed(path, stamp));
+        match self.doc.file.path.clone() {
+            Some(path) if is_foreign(&path) => {
                 self.talk.question = Some(Question::ChangedOnDisk { path, then });
             }
-            (Some(path), _) => self.write(&path, then),
-            (None, _) => self.save_as(then),
+            Some(path) => self.write(&path, then),
+            None => self.save_as(then),
         }
     }
 

@@ -19,9 +19,9 @@ pub struct PaletteEntry {
 
 /// All lines whose label has the letters of `query` in this order, best first: an empty query gives all.
 pub fn palette(session: &Session, query: &str) -> Vec<PaletteEntry> {
-    let mut found: Vec<(usize, PaletteEntry)> =
-        entries(session).filter_map(|entry| Some((distance(query, &entry.label)?, entry))).collect();
-    found.sort_by_key(|(distance, _)| *distance);
+    let mut found: Vec<(Rank, PaletteEntry)> =
+        entries(session).filter_map(|entry| Some((rank(query, &entry.label)?, entry))).collect();
+    found.sort_by_key(|(rank, _)| *rank);
     found.into_iter().map(|(_, entry)| entry).collect()
 }
 
@@ -60,6 +60,28 @@ fn entries(session: &Session) -> impl Iterator<Item = PaletteEntry> {
 
 fn entry(command: impl Into<Command>, label: String, help: String) -> PaletteEntry {
     PaletteEntry { command: command.into(), label, help, disabled: None }
+}
+
+/// What is found sooner comes first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Rank {
+    /// A word begins with what was typed.
+    Word,
+    /// It stands inside a word.
+    Inside,
+    /// Its letters are there in this order, so far apart.
+    Scattered(usize),
+}
+
+/// How well a label fits; `None` where it does not.
+fn rank(query: &str, label: &str) -> Option<Rank> {
+    let (query, label) = (query.trim().to_lowercase(), label.to_lowercase());
+    let mut places = label.match_indices(&query).map(|(at, _)| at).peekable();
+    if places.peek().is_none() {
+        return distance(&query, &label).map(Rank::Scattered);
+    }
+    let begins_word = |at: usize| !label[..at].ends_with(char::is_alphanumeric);
+    Some(if places.any(begins_word) { Rank::Word } else { Rank::Inside })
 }
 
 /// How many letters of `label` lie between or before those of `query`; `None` when they are not all there

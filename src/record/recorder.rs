@@ -192,7 +192,7 @@ impl RunRecorder {
                 run.message = Some("Δt must be above zero".into());
             }
             RunCommand::Step { dt, count } if count > 0 => self.task = Task::Steps { dt, left: count },
-            RunCommand::NextEvent { dt, of } => self.task = Task::ToEvent { dt, of, empty: 0 },
+            RunCommand::NextEvent { dt, of } => self.task = Task::ToEvent { dt, of, empty: 0, from: None },
             RunCommand::RunUntil { dt, goal } => self.task = Task::Until { dt, goal, waited: 0 },
             RunCommand::FinishStep => self.task = Task::Finish,
             RunCommand::Play { dt, speed, range } if speed.is_finite() && speed != 0.0 => {

@@ -1,6 +1,8 @@
 //! What a recorder is working on, one portion at a time.
 
 use super::command::{Goal, Of};
+use super::grid::StepGrid;
+use super::moment::Moment;
 use super::run::{Run, Slice, Stop};
 use crate::sim::EventKind;
 
@@ -18,6 +20,8 @@ pub(super) enum Task {
         of: Of,
         /// Δt without an event so far.
         empty: u32,
+        /// What was shown when it began.
+        from: Option<(Moment, StepGrid)>,
     },
     Until {
         dt: f64,
@@ -51,9 +55,11 @@ const MOST_DUE: f64 = 0.1;
 /// Wall-clock seconds between two pictures: a Δt that takes longer to play is gone through in between.
 const PICTURE: f64 = 1.0 / 60.0;
 
-/// Δt without an event after which "next event" stops looking, and Δt after which waiting for rest ends, so that a scene
-/// in which that never happens does not run for ever.
+/// Δt after which waiting for rest ends, so that a scene in which that never happens does not run for ever.
 const MOST_EMPTY_STEPS: u32 = 100_000;
+
+/// Δt without an event after which "next event" stops looking: some minutes of most scenes.
+const MOST_STEPS_TO_EVENT: u32 = 10_000;
 
 impl Task {
     /// Does one Δt, or what the budget allows; false when a task cannot go on for now.
@@ -68,15 +74,19 @@ impl Task {
                     }
                 }
             }
-            Self::ToEvent { dt, of, empty } => match run.slice(*dt, Stop::AT_EVENTS, budget) {
-                Slice::Event if is_reached(run, *of) => *self = Self::Idle,
-                Slice::Done if *empty >= MOST_EMPTY_STEPS => {
-                    run.message = Some(format!("no event within {MOST_EMPTY_STEPS} Δt"));
-                    *self = Self::Idle;
+            Self::ToEvent { dt, of, empty, from } => {
+                let (moment, grid) = *from.get_or_insert((run.cursor, run.grid));
+                match run.slice(*dt, Stop::AT_EVENTS, budget) {
+                    Slice::Event if is_reached(run, *of) => *self = Self::Idle,
+                    Slice::Done if *empty >= MOST_STEPS_TO_EVENT => {
+                        run.show(moment, grid);
+                        run.message = Some(format!("no event within {MOST_STEPS_TO_EVENT} Δt after this"));
+                        *self = Self::Idle;
+                    }
+                    Slice::Done => *empty += 1,
+                    Slice::Event | Slice::Stopped | Slice::Pause => {}
                 }
-                Slice::Done => *empty += 1,
-                Slice::Event | Slice::Stopped | Slice::Pause => {}
-            },
+            }
             Self::Until { dt, goal, waited } => {
                 if goal.advance(run, *dt, budget, waited) {
                     *self = Self::Idle;

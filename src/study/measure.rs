@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::hits::compare;
 use super::overlap::OverlapMonitor;
-use super::{Candidate, Control, PairImpact, RunFigures, Stop, StudySettings, Truth};
+use super::{Candidate, Control, HorizonCause, PairImpact, RunFigures, Stop, StudySettings, Truth};
 use crate::scene::Scene;
 use crate::sim::{BodyRef, Event, EventKind, Progress, Simulation};
 
@@ -259,7 +259,13 @@ impl<'a> ObservedRun<'a> {
         if horizon > 0.0 {
             let window = self.limits.event_window + self.point.dt.unwrap_or(0.0);
             let found = compare(&self.hits, &self.truth.hits, horizon - window, window);
-            (self.point.missed, self.point.wrong) = (Some(found.missed), Some(found.wrong));
+            // No impact of none compared says nothing, unless that is all there was.
+            let is_said = self.truth.horizon.impacts > 0
+                || found.wrong > 0
+                || self.truth.horizon.cause == HorizonCause::WholeRun;
+            if is_said {
+                (self.point.missed, self.point.wrong) = (Some(found.missed), Some(found.wrong));
+            }
             self.point.first_difference = found.first;
             // Parted at the first sample.
             self.point.follows_until.get_or_insert(0.0);

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use polyscene::editor::{
-    Action, COMMANDS, Command, Menu, NoticeLevel, Outcome, SessionCommand, Shortcut, ViewCommand, info,
-    palette,
+    Action, COMMANDS, Command, Menu, NoticeLevel, Outcome, SessionCommand, Shortcut, ViewCommand,
+    WindowCommand, info, palette,
 };
 use polyscene::sim::Method;
 
@@ -117,6 +117,8 @@ fn the_palette_finds_commands_samples_and_overlays_by_their_letters() {
     assert_eq!(best("next ev"), Some(SessionCommand::NextEvent.into()));
     assert!(matches!(best("sample orb"), Some(Command::Session(SessionCommand::OpenSample(_)))));
     assert!(matches!(best("overlay veloc"), Some(Command::View(ViewCommand::ToggleOverlay(_)))));
+    // A word that is typed whole comes before letters that happen to be there.
+    assert!(matches!(best("ramp"), Some(Command::Window(WindowCommand::DesignTool(_)))));
     assert!(palette(&bench.session, "qqqq").is_empty());
     assert!(palette(&bench.session, "").len() > COMMANDS.len());
 }

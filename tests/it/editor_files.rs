@@ -159,6 +159,32 @@ fn a_file_that_changed_on_disk_is_not_overwritten_unasked() {
     assert!(bench.session.question().is_none(), "our own save is no change by another program");
 }
 
+/// Symptom: a file that another program removed and wrote anew was replaced without a question. Cause: what is gone was
+/// forgotten, and then nothing could have changed.
+#[test]
+fn a_file_that_was_gone_for_a_while_is_not_overwritten_unasked() {
+    let mut bench = dirty();
+    let path = bench.session.path().unwrap().to_owned();
+    std::fs::remove_file(&path).unwrap();
+    bench.act(Action::LookAtDisk);
+    assert!(bench.notices().contains("gone from the disk"));
+    std::fs::write(&path, SCENE.replace("the second", "the SECOND")).unwrap();
+    bench.run(SessionCommand::Save);
+    assert!(matches!(bench.session.question(), Some(Question::ChangedOnDisk { .. })));
+    assert!(std::fs::read_to_string(&path).unwrap().contains("SECOND"));
+}
+
+/// What is gone is written again without a question.
+#[test]
+fn a_file_that_is_gone_is_saved_again() {
+    let mut bench = dirty();
+    let path = bench.session.path().unwrap().to_owned();
+    std::fs::remove_file(&path).unwrap();
+    bench.act(Action::LookAtDisk);
+    bench.run(SessionCommand::Save);
+    assert!(bench.session.question().is_none() && path.exists());
+}
+
 #[test]
 fn quitting_over_a_file_that_changed_asks_both_questions() {
     let mut bench = dirty();

@@ -184,6 +184,18 @@ fn a_goal_that_is_never_reached_is_given_up() {
     }
 }
 
+/// Symptom: the next event after the last one was looked for through half an hour of model time, and shown was what is then.
+#[test]
+fn no_next_event_leaves_what_is_shown() {
+    let mut runner = loaded("rest.xml");
+    let rest = after(&mut runner, RunCommand::RunUntil { dt: DT, goal: Goal::Rest });
+    let then = step(&mut runner, 3);
+    let found = after(&mut runner, RunCommand::NextEvent { dt: DT, of: Of::All });
+    assert!(then.time > rest.time);
+    assert_eq!((found.time, bits(&found)), (then.time, bits(&then)));
+    assert!(step(&mut runner, 1).time > then.time, "it can be gone on from");
+}
+
 #[test]
 fn what_an_edit_in_the_past_replaces_can_be_brought_back() {
     let mut runner = loaded("thesis-appendix-2.xml");

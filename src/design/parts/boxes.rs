@@ -8,10 +8,11 @@ use super::inputs::{
 use crate::design::builder::{Ball, Builder, Plate};
 use crate::design::place::of_map;
 use crate::design::tool::{Input, Kind, Tool, ToolGroup};
+use crate::random::Random;
 
 /// Room between the balls of a container and around them, as a share of their diameter: they must not touch before
-/// they fall.
-const SPACING: f64 = 1.02;
+/// they fall, nor stand in columns then.
+const SPACING: f64 = 1.15;
 
 /// Height of a container's walls over that of its balls.
 const HEADROOM: f64 = 1.25;
@@ -101,7 +102,7 @@ pub const CONTAINER: Tool = Tool {
     id: "container",
     label: "Container of balls…",
     group: ToolGroup::Part,
-    help: "Adds an open box with balls in layers, a little apart, so that they fall into a heap",
+    help: "Adds an open box with balls in layers, a little apart and a little out of line, so that they fall into a heap",
     inputs: &[
         Input {
             label: "Balls",
@@ -135,12 +136,15 @@ pub const CONTAINER: Tool = Tool {
         let mut builder = Builder::part(given, "container");
         walls(&mut builder, foot + DVec3::Y * (size.y / 2.0), size, 1.0, false);
         let corner = foot - DVec3::new(size.x, 0.0, size.z) / 2.0 + DVec3::splat(pitch / 2.0);
+        // Balls exactly above each other would stay so: each is somewhere in its cell.
+        let mut random = Random::new(1);
         for nth in 0..count {
+            let aside = random.vector(0.9 * (pitch / 2.0 - radius));
             let cell = [nth % row, nth / (row * row), nth / row % row].map(|at| at as f64);
             builder.ball(
                 "ball",
                 &Ball {
-                    at: corner + DVec3::from_array(cell) * pitch,
+                    at: corner + DVec3::from_array(cell) * pitch + aside,
                     radius,
                     mass: values.number("Ball mass"),
                     velocity: DVec3::ZERO,

@@ -55,6 +55,12 @@ pub struct Accuracy {
     stale: (u64, bool),
 }
 
+/// A diagram less high than this shows nothing, in points; where the panel is lower, it scrolls.
+const LEAST_HEIGHT: f32 = 230.0;
+
+/// Width from which diagram and figures have room beside each other, in points.
+const LEAST_WIDTH: f32 = 640.0;
+
 impl Accuracy {
     /// Whether a study is going on.
     pub fn is_running(&self) -> bool {
@@ -144,32 +150,23 @@ impl Accuracy {
         let mut chosen = axis_index;
         let layout = egui::Layout::top_down(egui::Align::Min);
         ui.allocate_ui_with_layout(vec2(ui.available_width(), height), layout, |ui| {
-            ui.horizontal(|ui| {
-                chosen = axis_menu(ui, axis_index);
-                ui.add_space(8.0);
-                export_buttons(ui, context, report);
-                ui.add_space(8.0);
-                if stale {
-                    severity_icon(ui, false);
-                    let text = "The scene was edited since: these figures are of the scene before.";
-                    ui.label(RichText::new(text).color(tones(ui).warning));
-                } else if report.cancelled {
-                    severity_icon(ui, false);
-                    ui.label("Cancelled: this is what was done until then.");
-                }
-            });
-            ui.label(RichText::new(report.horizon_statement()).small());
-            let (width, rest) = (0.46 * ui.available_width(), ui.available_height());
-            ui.horizontal_top(|ui| {
-                ui.allocate_ui_with_layout(vec2(width, rest), layout, |ui| {
-                    ui.set_width(width);
+            ScrollArea::vertical().id_salt("study results").auto_shrink(false).show(ui, |ui| {
+                let top = ui.cursor().top();
+                ui.horizontal_wrapped(|ui| {
+                    chosen = axis_menu(ui, axis_index);
+                    ui.add_space(8.0);
+                    export_buttons(ui, context, report);
+                    ui.add_space(8.0);
+                    state(ui, report, stale);
+                });
+                ui.label(RichText::new(report.horizon_statement()).small());
+                let rest = height - (ui.cursor().top() - top);
+                let mut diagram = |ui: &mut Ui| {
                     if let Some(axis) = AXES.get(axis_index) {
                         diagram::show(ui, report, axis, self.serial);
                     }
-                });
-                ui.allocate_ui_with_layout(vec2(ui.available_width(), rest), layout, |ui| {
-                    figures::show(ui, report);
-                });
+                };
+                beside_or_below(ui, rest, &mut diagram, &mut |ui| figures::show(ui, report));
             });
         });
         self.axis = Some(chosen);
@@ -195,6 +192,41 @@ impl Accuracy {
         write_atomically(path, text.as_bytes())
             .map_err(|error| format!("cannot write {}: {error}", shown_path(path)))
     }
+}
+
+/// Whether the figures are those of the scene as it is, and all of them.
+fn state(ui: &mut Ui, report: &StudyReport, stale: bool) {
+    if stale {
+        severity_icon(ui, false);
+        let text = "The scene was edited since: these figures are of the scene before.";
+        ui.label(RichText::new(text).color(tones(ui).warning));
+    } else if report.cancelled {
+        severity_icon(ui, false);
+        ui.label("Cancelled: this is what was done until then.");
+    }
+}
+
+/// The diagram beside the figures, or above them where that would leave little of either.
+fn beside_or_below(
+    ui: &mut Ui,
+    rest: f32,
+    diagram: &mut dyn FnMut(&mut Ui),
+    figures: &mut dyn FnMut(&mut Ui),
+) {
+    let layout = egui::Layout::top_down(egui::Align::Min);
+    let (width, height) = (ui.available_width(), rest.max(LEAST_HEIGHT));
+    if width < LEAST_WIDTH {
+        ui.allocate_ui_with_layout(vec2(width, height), layout, diagram);
+        ui.allocate_ui_with_layout(vec2(width, height), layout, figures);
+        return;
+    }
+    ui.horizontal_top(|ui| {
+        ui.allocate_ui_with_layout(vec2(0.46 * width, height), layout, |ui| {
+            ui.set_width(0.46 * width);
+            diagram(ui);
+        });
+        ui.allocate_ui_with_layout(vec2(ui.available_width(), height), layout, figures);
+    });
 }
 
 fn empty(ui: &mut Ui) {

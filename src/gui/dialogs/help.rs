@@ -38,13 +38,10 @@ const WINDOW: [(&str, &str); 9] = [
         "Editing while it runs",
         "Forces, static bodies, bounce and mass take hold at once. Positions, velocities and settings change the start and wait for a reset.",
     ),
-    (
-        "Events",
-        "The collisions of the last Δt. A click shows the place in all views, a double click goes there.",
-    ),
+    ("Events", "Every event of the run. A click goes there and shows the place in all views."),
     (
         "XML",
-        "The file as it would be saved, with what is selected marked; a click selects. When another program saves the file, its changes are listed and taken over without stopping what runs.",
+        "The file as it would be saved, with what is selected marked; a click selects. When another program saves the file, its changes are listed; taken over, they do not stop what runs.",
     ),
     (
         "Problems",

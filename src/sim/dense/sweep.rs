@@ -90,6 +90,7 @@ pub(super) fn solve(
         if contacts.len() > before {
             system.add(&contacts[before..], &tolerance);
             rub_on(system, rubbing, before, contacts);
+            solution.has_converged = false;
             continue;
         }
         let (loss, sinks) = system.judge(contacts, h, rubbing);

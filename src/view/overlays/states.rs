@@ -4,33 +4,39 @@
 use crate::scene::Shape;
 use crate::sim::ContactState;
 use crate::view::stage::{Posed, Stage};
-use crate::view::{DrawList, Point, PointShape};
+use crate::view::{Color, DrawList, Point, PointShape};
 
 /// Sizes of a mark, points: on a large body, and on the smallest.
 const SIZES: (f64, f64) = (11.0, 4.0);
 /// Share of a body's width that a mark may hide in between, so that a heap is seen.
 const SHARE: f64 = 0.4;
+/// All marks together hide no more than a square of this side, points: they are over all bodies, also of those inside a heap.
+const ALL: f64 = 60.0;
+/// What is smaller cannot be seen, points.
+const LEAST: f64 = 1.0;
 
 pub(in crate::view) fn add(stage: &Stage<'_>, list: &mut DrawList) {
-    for posed in &stage.bodies {
-        let (shape, color) = match posed.now.map(|now| now.contact) {
-            Some(ContactState::Rest) => (PointShape::Square, stage.palette.rest),
-            Some(ContactState::Slide) => (PointShape::Ring, stage.palette.slide),
-            Some(ContactState::Roll) => (PointShape::Disc, stage.palette.roll),
-            Some(ContactState::Stepped) => (PointShape::Diamond, stage.palette.stepped),
-            Some(ContactState::Flight) | None => continue,
-        };
-        list.points.push(Point {
-            position: list.local(posed.position),
-            color,
-            size: size(stage, posed),
-            shape,
-        });
+    let marked = || stage.bodies.iter().filter_map(|posed| Some((posed, mark(stage, posed)?)));
+    let most = (ALL / libm::sqrt(marked().count() as f64)).max(LEAST);
+    for (posed, (shape, color)) in marked() {
+        let size = size(stage, posed).min(most) as f32;
+        list.points.push(Point { position: list.local(posed.position), color, size, shape });
     }
 }
 
-fn size(stage: &Stage<'_>, posed: &Posed<'_>) -> f32 {
-    let Shape::Sphere { radius } = posed.body.shape else { return SIZES.0 as f32 };
+/// What is drawn on a body, if anything.
+fn mark(stage: &Stage<'_>, posed: &Posed<'_>) -> Option<(PointShape, Color)> {
+    match posed.now?.contact {
+        ContactState::Rest => Some((PointShape::Square, stage.palette.rest)),
+        ContactState::Slide => Some((PointShape::Ring, stage.palette.slide)),
+        ContactState::Roll => Some((PointShape::Disc, stage.palette.roll)),
+        ContactState::Stepped => Some((PointShape::Diamond, stage.palette.stepped)),
+        ContactState::Flight => None,
+    }
+}
+
+fn size(stage: &Stage<'_>, posed: &Posed<'_>) -> f64 {
+    let Shape::Sphere { radius } = posed.body.shape else { return SIZES.0 };
     let width = 2.0 * radius / stage.metres_per_point(posed.position);
-    (SHARE * width).max(SIZES.1).min(SIZES.0) as f32
+    (SHARE * width).max(SIZES.1).min(SIZES.0)
 }

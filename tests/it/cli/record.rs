@@ -27,6 +27,17 @@ fn a_recording_is_run_again_with_the_same_states() {
     assert_eq!((before.code, before.stdout.as_str()), (0, ""), "{}", before.stderr);
 }
 
+/// Symptom: the recording was gone, replaced by its own events.
+#[test]
+fn a_recording_is_never_overwritten_by_its_events() {
+    let bench = recorded();
+    let before = std::fs::read(bench.path("run.psrec")).expect("it is there");
+    let refused = bench.polyscene(&["replay", "run.psrec", "--events", "./run.psrec"]);
+    assert_eq!(refused.code, 2, "{}", refused.stderr);
+    assert!(refused.stderr.contains("would overwrite the recording"), "{}", refused.stderr);
+    assert_eq!(std::fs::read(bench.path("run.psrec")).expect("it is there"), before);
+}
+
 #[test]
 fn every_method_is_recorded() {
     let bench = Bench::with_scene(BOUNCE);
