@@ -261,7 +261,8 @@ impl App {
             self.dock.show(ui, &mut contents, |index| shown_views.get(index).is_some_and(|shown| *shown));
         });
         let area = contents.area.unwrap_or_else(|| ctx.content_rect());
-        if !self.start_closed && start::is_wanted(&self.session) && context.session.question().is_none() {
+        let is_asked = context.session.question().is_some() || self.dialogs.are_open();
+        if !self.start_closed && start::is_wanted(&self.session) && !is_asked {
             self.start_closed = start::show(&ctx, area, &context);
         }
         self.dialogs.show(&ctx, &context);

@@ -23,7 +23,7 @@ const COLUMNS: usize = 3;
 
 /// A card over the views, as low as it can be: small windows show all of it. Returns whether it was closed.
 pub fn show(ctx: &egui::Context, area: egui::Rect, context: &AppContext<'_>) -> bool {
-    let mut closed = false;
+    let mut closed = ctx.input(|input| input.key_pressed(egui::Key::Escape));
     egui::Area::new(egui::Id::unique("start"))
         .fixed_pos(area.center())
         .pivot(Align2::CENTER_CENTER)
@@ -42,7 +42,7 @@ pub fn show(ctx: &egui::Context, area: egui::Rect, context: &AppContext<'_>) -> 
                         context.outbox.command(SessionCommand::Open);
                     }
                     let empty = ui.button("Empty scene");
-                    if empty.on_hover_text("Closes this card; add bodies from the Add menu").clicked() {
+                    if empty.on_hover_text("Closes this card (Esc); add bodies from the Add menu").clicked() {
                         closed = true;
                     }
                 });

@@ -36,6 +36,7 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>, pace: &Pace) {
         let behind = if frame.stepped.is_some() { STEPPED } else { 0.0 };
         badge::show(ui, context, behind);
         stepped(ui, context);
+        outside(ui, context);
         verified(ui, context);
         let step = numbers::duration(frame.step_wall_s);
         item(ui, "step", &step, 58.0, 0.0, "Computing time of the last Δt");
@@ -58,6 +59,18 @@ fn stepped(ui: &mut Ui, context: &AppContext<'_>) {
     );
     let color = color32(context.palette().stepped);
     ui.label(RichText::new(text).small().color(color)).on_hover_text(help);
+}
+
+/// How many bodies have left the map, while there are any: where they are nobody may be looking.
+fn outside(ui: &mut Ui, context: &AppContext<'_>) {
+    let (Some(scene), frame) = (context.session.scene(), context.session.frame()) else { return };
+    let is_outside = |at: glam::DVec3| at.cmplt(glam::DVec3::ZERO).any() || at.cmpgt(scene.map.size).any();
+    let count = frame.bodies.iter().filter(|body| is_outside(body.position)).count();
+    if count > 0 {
+        let text = format!("{} outside the map", numbers::count(count as u64));
+        let help = "Bodies whose centres have left the map. It holds nobody: only walls do.";
+        ui.label(RichText::new(text).small().color(tones(ui).warning)).on_hover_text(help);
+    }
 }
 
 /// Whether the run of a recording that was opened is the recorded one.

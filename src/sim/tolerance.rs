@@ -1,6 +1,6 @@
 //! The thresholds of the core that no scene sets: bounds on rounding, and where a search or an iteration gives up.
 //! Those that a scene can set are in [`crate::scene::PARAMS`]; those of the integrators are in `motion`, those of
-//! the methods that step by Δt in `stepping`.
+//! stepped groups in `dense`, those of the methods that step by Δt in `stepping`.
 //!
 //! Each says what it is a part of, why it has its value, and what breaks where it is smaller or larger.
 

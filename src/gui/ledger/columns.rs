@@ -85,7 +85,7 @@ pub const COLUMNS: [LedgerColumn; 14] = [
     },
     LedgerColumn {
         title: "ΔE [J]",
-        help: "Energy that the impact left the bodies with, less what they came with",
+        help: "Energy that the impact left the bodies with, less what they came with, along the normal: what friction took is not in it",
         width: 88.0,
         text: |_, row| row.energy_change().map_or(String::new(), |change| significant(change, 5)),
         key: Some(|event, _| EventRow::energy_change_of(event).unwrap_or(0.0)),

@@ -56,7 +56,7 @@ fn take_waiting(model: &Model, state: &mut State, dense: &mut Dense, time: f64) 
     }
 }
 
-/// Takes in bodies with all that they touch, and lets them go on. It is news unless they join others.
+/// Takes in bodies with all that they touch, and lets them go on: a new group.
 pub(in crate::sim) fn enter(model: &Model, state: &mut State, seeds: &[u32], time: f64) -> Result<(), Fault> {
     take_over(model, state, seeds, time, true)
 }

@@ -44,7 +44,7 @@ pub(super) struct Approach {
     pub distance: f64,
     /// Speeds up to this neither close nor part, m/s.
     pub still: f64,
-    /// As of [`super::advance::Search`], m.
+    /// As of [`super::advance::Span`], m.
     pub slack: f64,
 }
 
