@@ -4,16 +4,23 @@ use super::command::Of;
 use super::grid::StepGrid;
 use super::moment::Moment;
 use super::run::Run;
+use super::ticks::Tick;
 use crate::sim::ContactState;
 
 impl Run {
     pub(super) fn can_step_back(&self) -> bool {
-        self.recording.ticks.before(self.cursor).is_some()
+        self.tick_before().is_some()
+    }
+
+    /// The last end of a Δt before what is shown, if what was then is recorded.
+    fn tick_before(&self) -> Option<Tick> {
+        let from = self.recording.from();
+        self.recording.ticks.before(self.cursor).filter(|tick| from.time <= tick.at.time)
     }
 
     /// Back to the beginning of the open Δt, or else of the last one; whether there was one.
     pub(super) fn step_back(&mut self) -> bool {
-        let Some(tick) = self.recording.ticks.before(self.cursor) else { return false };
+        let Some(tick) = self.tick_before() else { return false };
         self.show(tick.at, tick.grid);
         true
     }

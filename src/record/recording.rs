@@ -176,13 +176,12 @@ impl Recording {
         }
     }
 
-    /// Drops a share of the time known, from its beginning. The first keyframe stays, so that any moment after can still be
-    /// gone on from.
+    /// Drops a share of the time known, from its beginning. The first keyframe and the ends of Δt stay, so that any moment
+    /// after can still be gone on from, by methods that step by Δt too.
     fn drop_oldest(&mut self) {
         let time = self.from.time + DROPPED_SHARE * (self.end.time - self.from.time);
         self.from = Moment::after_all(self.ledger.number_until(time), time);
         self.ledger.drop_before(time);
-        self.ticks.drop_before(time);
         self.log.drop_before(time);
     }
 

@@ -70,11 +70,6 @@ impl Ticks {
         self.0.extend(rest);
     }
 
-    pub(super) fn drop_before(&mut self, time: f64) {
-        let old = self.0.partition_point(|tick| tick.at.time < time);
-        self.0.drain(..old.min(self.0.len().saturating_sub(1)));
-    }
-
     /// The Δt in the order in which they were taken, those of one length together.
     pub(super) fn steps(&self) -> Vec<Steps> {
         let mut steps: Vec<Steps> = Vec::new();

@@ -8,6 +8,8 @@ use polyscene::sim::{Method, SimEdit, Simulation};
 
 use crate::common::load::load;
 
+const DT: f64 = 1.0 / 60.0;
+
 const STEPPING: [Method; 2] = [Method::Thesis, Method::Fixed];
 
 fn thesis() -> Scene {
@@ -145,4 +147,36 @@ fn another_step_length_after_going_back_makes_another_future_and_says_so() {
         }
         assert_eq!(bits(&runner.frame()), here, "{method:?}");
     }
+}
+
+/// Symptom: after the oldest was dropped, what is kept was gone on from with another state. Cause: with the motion went the ends
+/// of the Δt that older keyframes are followed by, and the first step after one was as long as all those together.
+#[test]
+fn what_is_kept_can_be_gone_on_from_where_the_oldest_is_dropped() {
+    for method in STEPPING {
+        let mut whole = gas(method);
+        whole.send(RunCommand::Step { dt: DT, count: 1500 });
+        let bytes = whole.frame().recorded.bytes;
+        let mut small = gas(method);
+        small.send(RunCommand::Budget(bytes / 3));
+        small.send(RunCommand::Step { dt: DT, count: 1500 });
+        let recorded = small.frame().recorded.clone();
+        assert!(recorded.from > 0.0, "{method:?}: something is dropped");
+        let middle = DT * (0.5 * (recorded.from + recorded.to) / DT).round();
+        for runner in [&mut whole, &mut small] {
+            runner.send(RunCommand::Seek { dt: DT, time: middle });
+            // Another Δt makes another future.
+            runner.send(RunCommand::Step { dt: 0.5 * DT, count: 20 });
+        }
+        let (whole, small) = (whole.frame(), small.frame());
+        assert_eq!(small.fault, None, "{method:?}");
+        assert_eq!(bits(&small), bits(&whole), "{method:?}");
+    }
+}
+
+fn gas(method: Method) -> InlineRunner {
+    let mut runner = InlineRunner::new();
+    runner.send(RunCommand::Load(Arc::new(load("gas.xml"))));
+    runner.send(RunCommand::Method(method));
+    runner
 }
