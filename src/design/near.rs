@@ -106,8 +106,6 @@ impl Node {
 
 #[cfg(test)]
 mod tests {
-    use std::time::Instant;
-
     use glam::DVec3;
 
     use super::*;
@@ -158,28 +156,6 @@ mod tests {
                 );
             }
         }
-    }
-
-    /// Symptom: dragging one of 10 000 balls on a lattice took half a second a frame in a debug build. Expected: eight
-    /// times as many balls take about eight times as long. Cause: a sweep along one axis compared each ball with all of
-    /// its layer, n^(5/3) in all, so 32 times as long.
-    #[test]
-    fn a_lattice_takes_about_as_long_as_it_has_balls() {
-        let lattice = |side: usize| {
-            let at = |index: usize| [index % side, index / side % side, index / (side * side)];
-            let place = |index| DVec3::from_array(at(index).map(|at| at as f64));
-            (0..side * side * side).map(|index| ball(index, place(index), 0.3, true)).collect::<Vec<_>>()
-        };
-        let quickest = |bodies: &[Body]| {
-            let times = (0..5).map(|_| {
-                let start = Instant::now();
-                assert!(found(bodies, 0.0).is_empty());
-                start.elapsed()
-            });
-            times.min().unwrap_or_default()
-        };
-        let (few, many) = (quickest(&lattice(12)), quickest(&lattice(24)));
-        assert!(many < few * 18, "{few:?} and {many:?}");
     }
 
     #[test]
