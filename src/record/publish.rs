@@ -107,7 +107,7 @@ fn recorded(run: &Run) -> Recorded {
         bytes: recording.bytes(),
         budget: recording.budget(),
         edits: recording.edits().iter().map(|edits| edits.at.time).collect(),
-        can_bring_back: run.dropped.is_some(),
+        can_bring_back: run.can_bring_back(),
     }
 }
 

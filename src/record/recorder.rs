@@ -226,7 +226,7 @@ impl RunRecorder {
     fn set_budget(&mut self, bytes: usize) {
         self.budget = bytes;
         if let Some(run) = &mut self.run {
-            run.recording.set_budget(bytes);
+            run.set_budget(bytes);
         }
     }
 

@@ -32,7 +32,7 @@ pub(super) struct Run {
     pub(super) applied: usize,
     pub(super) recording: Recording,
     /// What an edit in the past has replaced, until the next edit.
-    pub(super) dropped: Option<Future>,
+    dropped: Option<Replaced>,
     pub(super) drift: Drift,
     /// Deepest overlap at any time looked at so far, m.
     pub(super) worst_overlap: f64,
@@ -42,6 +42,14 @@ pub(super) struct Run {
     pub(super) fault: Option<Moment>,
     /// Whether the simulation has stopped where it was between two events.
     is_between: bool,
+}
+
+/// What an edit in the past has replaced.
+#[derive(Debug)]
+struct Replaced {
+    future: Future,
+    /// How the books were off at the end of it.
+    drift: Drift,
 }
 
 /// Where to stop inside a Δt.
@@ -165,6 +173,7 @@ impl Run {
                 self.grid.close();
                 self.recording.end_grid = self.grid;
                 self.recording.note_tick(&self.simulation);
+                self.forget_unreachable();
                 Slice::Done
             }
             Err(fault) => {
@@ -248,18 +257,35 @@ impl Run {
             self.message = Some(format!("{lost} edit(s) made later no longer apply"));
         }
         self.fault = None;
+        let drift = self.drift.clone();
         self.drift.drop_after(self.cursor.event, &self.simulation);
-        self.dropped = Some(future);
+        self.dropped = Some(Replaced { future, drift });
+    }
+
+    /// Whether an edit in the past has replaced something that can be brought back.
+    pub(super) fn can_bring_back(&self) -> bool {
+        self.dropped.is_some()
+    }
+
+    pub(super) fn set_budget(&mut self, bytes: usize) {
+        self.recording.set_budget(bytes);
+        self.forget_unreachable();
+    }
+
+    /// What was replaced continues from a moment: once that is dropped to stay within the budget, it continues nothing.
+    fn forget_unreachable(&mut self) {
+        let from = self.recording.from();
+        self.dropped.take_if(|replaced| !from.is_not_after(replaced.future.from));
     }
 
     /// Takes the last edit in the past back: what it replaced is the future again.
     pub(super) fn bring_back(&mut self) {
-        let Some(future) = self.dropped.take() else {
+        let Some(Replaced { future, drift }) = self.dropped.take() else {
             self.message = Some("no edit in the past has replaced anything".into());
             return;
         };
         let moment = future.from;
-        self.drift.drop_after(moment.event, &self.simulation);
+        self.drift = drift;
         self.recording.put_back(future);
         self.show(moment, self.grid_at(moment));
         self.fault = None;

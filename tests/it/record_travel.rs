@@ -282,3 +282,24 @@ fn recorded_motion_is_looked_up_with_the_bits_of_the_run() {
         assert!(after(&mut runner, RunCommand::ShareMotion(false)).motion.is_none());
     }
 }
+
+/// Symptom: once the memory had dropped where an edit was made, bringing back what it replaced left a recording that begins after
+/// its end. Expected: it can no longer be brought back, and that is said. Cause: what was replaced outlived what it continues.
+#[test]
+fn what_continues_a_dropped_past_is_not_brought_back() {
+    let whole = step(&mut loaded("gas.xml"), 3000).recorded.bytes;
+    let mut runner = loaded("gas.xml");
+    runner.send(RunCommand::Budget(whole / 3));
+    let early = step(&mut runner, 60);
+    seek(&mut runner, 0.5 * early.time);
+    let key = early.bodies[0].key;
+    let edited = after(&mut runner, RunCommand::Edit(vec![SimEdit::Mass(key, 9.0)]));
+    assert!(edited.recorded.can_bring_back);
+    let end = step(&mut runner, 3000);
+    assert!(end.recorded.from > edited.time, "from {} s", end.recorded.from);
+    assert!(!end.recorded.can_bring_back);
+    runner.send(RunCommand::BringBack);
+    let frame = runner.frame();
+    assert!(frame.fault.is_some());
+    assert_eq!((bits(&frame), &frame.recorded), (bits(&end), &end.recorded));
+}
