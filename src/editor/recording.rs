@@ -26,9 +26,8 @@ impl Session {
         let with_extension = path.with_extension(EXTENSION);
         // no dialog has asked about the longer name, so it must not replace anything
         let path = if path.extension().is_none() && !with_extension.exists() { with_extension } else { path };
-        if self.path().is_some_and(|scene| scene == path) {
-            let text = format!("{} is the scene itself: choose another name", shown_path(&path));
-            return self.talk.notices.push(Notice::error(text));
+        if let Err(reason) = self.spare_own_file(&path) {
+            return self.talk.notices.push(Notice::error(reason));
         }
         let Some(running) = &self.run.running else { return };
         let bookmark =

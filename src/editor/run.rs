@@ -84,8 +84,9 @@ impl Run {
         }
         let frame = self.runner.frame();
         self.playback.look_at(&frame);
-        if frame.written != self.frame.written
-            && let Some(written) = &frame.written
+        // By the same text another write may tell.
+        if let Some(written) = &frame.written
+            && !self.frame.written.as_ref().is_some_and(|before| Arc::ptr_eq(before, written))
         {
             talk.notices.push(report_written(written));
         }
@@ -93,7 +94,11 @@ impl Run {
             self.report_fault(&frame, talk);
         }
         self.frame = frame;
-        if self.shown_event.as_ref().is_some_and(|row| self.frame.event(row.event.seq).is_none()) {
+        // After an edit another event may have its number.
+        let is_recorded = |row: &Arc<EventRow>| {
+            self.frame.event(row.event.seq).is_some_and(|now| now.event.time == row.event.time)
+        };
+        if !self.shown_event.as_ref().is_some_and(is_recorded) {
             self.shown_event = None;
         }
     }
