@@ -54,9 +54,7 @@ impl Session {
         if let Ok(method) = file.method() {
             self.run.set_method(method);
         }
-        for command in commands {
-            self.run.go_on(command);
-        }
+        self.run.go_on(RunCommand::Script(commands.into()));
         let mark = |mark: NamedMoment| Bookmark { name: mark.name, time: mark.time, event: mark.event };
         self.travel.set_bookmarks(file.bookmarks.iter().cloned().map(mark).collect());
         let text = format!("Runs again what was recorded up to {:.6} s, and compares it", file.end.time);

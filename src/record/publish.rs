@@ -77,7 +77,9 @@ fn looked_up(base: Frame, run: &Run, span: Option<PathSpan>, crossed: &[NodeKey]
         counters: run.simulation.counters(),
         plan: Arc::new(run.simulation.plan().clone()),
         can_step_back: run.can_step_back(),
-        fault: run.message.clone(),
+        fault: run.fault_here().map(|fault| fault.why.clone()),
+        refused: run.refused.clone(),
+        message: run.message.clone(),
         ..base
     }
 }

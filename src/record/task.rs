@@ -71,7 +71,7 @@ impl Task {
             Self::ToEvent { dt, of, empty } => match run.slice(*dt, Stop::AT_EVENTS, budget) {
                 Slice::Event if is_reached(run, *of) => *self = Self::Idle,
                 Slice::Done if *empty >= MOST_EMPTY_STEPS => {
-                    run.message = Some(format!("no event within {MOST_EMPTY_STEPS} Δt"));
+                    run.message = Some(format!("no event within {MOST_EMPTY_STEPS} Δt").into());
                     *self = Self::Idle;
                 }
                 Slice::Done => *empty += 1,
@@ -81,7 +81,8 @@ impl Task {
                 if goal.advance(run, *dt, budget, waited) {
                     *self = Self::Idle;
                 } else if *waited >= MOST_EMPTY_STEPS {
-                    run.message = Some(format!("{} within {MOST_EMPTY_STEPS} Δt", goal.missing()));
+                    let text = format!("{} within {MOST_EMPTY_STEPS} Δt", goal.missing());
+                    run.message = Some(text.into());
                     *self = Self::Idle;
                 }
             }

@@ -111,7 +111,7 @@ fn edits_inside_a_step_are_replayed() {
         runner.send(RunCommand::NextEvent { dt: 0.1, of: Of::All });
         assert!(runner.frame().open_step.is_some());
         runner.send(RunCommand::Edit(vec![lift()]));
-        assert_eq!(runner.frame().fault, None);
+        assert_eq!(runner.frame().complaint(), None);
         runner.send(RunCommand::FinishStep);
         let after = bits(&step(&mut runner, 0.1, 30));
         for _ in 0..25 {

@@ -22,7 +22,7 @@ fn loaded(name: &str) -> InlineRunner {
 fn after(runner: &mut InlineRunner, command: RunCommand) -> Arc<Frame> {
     runner.send(command);
     let frame = runner.frame();
-    assert_eq!(frame.fault, None);
+    assert_eq!(frame.complaint(), None);
     frame
 }
 
@@ -71,7 +71,7 @@ fn seeking_beyond_the_end_runs_on_and_stays_inside_the_step() {
     assert_eq!(bits(&whole), bits(&step(&mut plain, whole.dt_index as u32)));
     for time in [f64::NAN, f64::INFINITY] {
         runner.send(RunCommand::Seek { dt: DT, time });
-        assert_eq!(runner.frame().fault.as_deref(), Some("that is not a time"));
+        assert_eq!(runner.frame().message.as_deref(), Some("that is not a time"));
     }
 }
 
@@ -176,7 +176,7 @@ fn a_goal_that_is_never_reached_is_given_up() {
         let mut runner = loaded(scene);
         runner.send(RunCommand::RunUntil { dt: DT, goal });
         let frame = runner.frame();
-        let said = frame.fault.as_deref().unwrap_or_default();
+        let said = frame.message.as_deref().unwrap_or_default();
         assert!(said.contains(message), "{scene}: {said}");
         assert_eq!(frame.state, RunState::Paused, "{scene}");
         // and it can be gone on from
@@ -300,6 +300,6 @@ fn what_continues_a_dropped_past_is_not_brought_back() {
     assert!(!end.recorded.can_bring_back);
     runner.send(RunCommand::BringBack);
     let frame = runner.frame();
-    assert!(frame.fault.is_some());
+    assert!(frame.message.is_some());
     assert_eq!((bits(&frame), &frame.recorded), (bits(&end), &end.recorded));
 }
