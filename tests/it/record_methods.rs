@@ -137,7 +137,8 @@ fn another_step_length_after_going_back_makes_another_future_and_says_so() {
             runner.send(RunCommand::StepBack);
         }
         let frame = step(&mut runner, 0.07, 20);
-        assert!(frame.fault.as_deref().is_some_and(|text| text.contains("1 edit")), "{:?}", frame.fault);
+        let said = frame.message.as_deref().unwrap_or_default();
+        assert!(said.contains("1 edit"), "{said}");
         let here = bits(&frame);
         step(&mut runner, 0.07, 3);
         for _ in 0..3 {
