@@ -77,7 +77,7 @@ pub(super) fn record(args: &RecordArgs) -> Result<(), CliError> {
     match (runner.exceeded(), frame.state, &frame.fault) {
         (Some(why), ..) => Err(CliError::Stopped { time: frame.time, why }),
         (None, RunState::Faulted, Some(message)) => {
-            Err(CliError::Fault(Fault { time: frame.time, message: message.clone(), key: None }))
+            Err(CliError::Fault(Fault { time: frame.time, message: message.to_string(), key: None }))
         }
         _ => Ok(()),
     }

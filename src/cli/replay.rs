@@ -128,8 +128,8 @@ fn go_to(runner: &mut InlineRunner, args: &ReplayArgs) -> Result<Arc<Frame>, Cli
         (None, time) => runner.send(RunCommand::Seek { dt: 1.0, time: time.unwrap_or(end) }),
     };
     let frame = runner.frame();
-    match (&frame.fault, frame.state) {
-        (Some(message), RunState::Paused) => Err(CliError::Usage(message.clone())),
+    match (frame.complaint(), frame.state) {
+        (Some(message), RunState::Paused) => Err(CliError::Usage(message.to_owned())),
         _ => Ok(frame),
     }
 }

@@ -32,16 +32,21 @@ impl Session {
         Ok(self.document().apply(&Edit::All(self.state_edits()))?.document)
     }
 
+    /// Refuses to write something else over the scene's own file, however its path is spelt.
+    pub(super) fn spare_own_file(&self, path: &Path) -> Result<(), String> {
+        if self.path().is_some_and(|own| same_file(own, path)) {
+            return Err(format!("{} is the scene itself: choose another name", shown_path(path)));
+        }
+        Ok(())
+    }
+
     /// Writes an exported file where the user said. The scene's own file is not replaced.
     pub(super) fn write_export(&mut self, path: &Path, file: &ExportedFile) -> Outcome {
         let longer = PathBuf::from(format!("{}.{}", path.display(), file.extension));
         // no dialog has asked about the longer name, so it must not replace anything
         let path = if path.extension().is_none() && !longer.exists() { &longer } else { path };
-        if self.path().is_some_and(|own| same_file(own, path)) {
-            return Outcome::Refused(format!(
-                "{} is the scene itself: choose another name",
-                shown_path(path)
-            ));
+        if let Err(reason) = self.spare_own_file(path) {
+            return Outcome::Refused(reason);
         }
         match write_atomically(path, &file.bytes) {
             Ok(()) => self.talk.notices.push(Notice::info(format!("Exported {}", shown_path(path)))),

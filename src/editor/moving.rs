@@ -168,7 +168,10 @@ impl Session {
 
     pub(super) fn go_to_bookmark(&mut self, index: usize) {
         let Some(mark) = self.travel.bookmarks.get(index).cloned() else { return };
-        match mark.event.filter(|event| self.run.frame.event(*event).is_some()) {
+        // After an edit another event may have its number.
+        let is_there =
+            |event: &u64| self.run.frame.event(*event).is_some_and(|row| row.event.time == mark.time);
+        match mark.event.filter(is_there) {
             Some(event) => self.go_to_event(event),
             None => drop(self.seek(mark.time)),
         }

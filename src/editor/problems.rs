@@ -5,7 +5,6 @@ use std::collections::BTreeSet;
 
 use super::{Session, SessionCommand};
 use crate::design::{Repair, Trouble};
-use crate::record::RunState;
 use crate::scene::{Diagnostic, NodeKey, Severity};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -101,14 +100,22 @@ impl Session {
     }
 
     fn fault_problem(&self) -> Option<Problem> {
-        let message = self.frame().fault.clone()?;
-        let stopped = self.frame().state == RunState::Faulted;
+        let (fault, refused) = (&self.frame().fault, &self.frame().refused);
+        let (severity, message, hint) = match (fault, refused) {
+            (Some(fault), _) => {
+                let hint = "reset, or step back and look at the bodies near the fault";
+                (Severity::Error, fault.to_string(), hint)
+            }
+            (None, Some(refused)) => {
+                (Severity::Warning, format!("the running simulation refused an edit: {refused}"), "")
+            }
+            (None, None) => return None,
+        };
         Some(Problem {
-            severity: if stopped { Severity::Error } else { Severity::Warning },
+            severity,
             source: ProblemSource::Run,
             message,
-            hint: if stopped { "reset, or step back and look at the bodies near the fault" } else { "" }
-                .to_owned(),
+            hint: hint.to_owned(),
             position: None,
             path: String::new(),
             key: None,

@@ -26,9 +26,8 @@ impl Session {
         let with_extension = path.with_extension(EXTENSION);
         // no dialog has asked about the longer name, so it must not replace anything
         let path = if path.extension().is_none() && !with_extension.exists() { with_extension } else { path };
-        if self.path().is_some_and(|scene| scene == path) {
-            let text = format!("{} is the scene itself: choose another name", shown_path(&path));
-            return self.talk.notices.push(Notice::error(text));
+        if let Err(reason) = self.spare_own_file(&path) {
+            return self.talk.notices.push(Notice::error(reason));
         }
         let Some(running) = &self.run.running else { return };
         let bookmark =
@@ -55,9 +54,7 @@ impl Session {
         if let Ok(method) = file.method() {
             self.run.set_method(method);
         }
-        for command in commands {
-            self.run.go_on(command);
-        }
+        self.run.go_on(RunCommand::Script(commands.into()));
         let mark = |mark: NamedMoment| Bookmark { name: mark.name, time: mark.time, event: mark.event };
         self.travel.set_bookmarks(file.bookmarks.iter().cloned().map(mark).collect());
         let text = format!("Runs again what was recorded up to {:.6} s, and compares it", file.end.time);

@@ -19,6 +19,10 @@ pub(super) struct Run {
     runner: Box<dyn Runner>,
     /// Number of the last command sent.
     sent: u64,
+    /// Number of the last command by which another run began: frames that do not know of it are of the one before.
+    begun: u64,
+    /// Number of the last command that ended playing: a frame that does not know of it cannot tell.
+    halted: u64,
     /// What ways the runner was asked for.
     paths: Option<PathSpan>,
     /// Of which bodies it was asked for the tile crossings.
@@ -51,6 +55,8 @@ impl Run {
             frame: runner.frame(),
             runner,
             sent: 0,
+            begun: 0,
+            halted: 0,
             paths: None,
             crossings: Arc::default(),
             playback,
@@ -83,17 +89,20 @@ impl Run {
             self.runner.tick(now.saturating_duration_since(before).as_secs_f64());
         }
         let frame = self.runner.frame();
+        if frame.command < self.begun {
+            return;
+        }
         self.playback.look_at(&frame);
-        if frame.written != self.frame.written
-            && let Some(written) = &frame.written
-        {
+        if let Some(written) = news(&self.frame.written, &frame.written) {
             talk.notices.push(report_written(written));
         }
-        if frame.fault != self.frame.fault {
-            self.report_fault(&frame, talk);
-        }
+        self.report(&frame, talk);
         self.frame = frame;
-        if self.shown_event.as_ref().is_some_and(|row| self.frame.event(row.event.seq).is_none()) {
+        // After an edit another event may have its number.
+        let is_recorded = |row: &Arc<EventRow>| {
+            self.frame.event(row.event.seq).is_some_and(|now| now.event.time == row.event.time)
+        };
+        if !self.shown_event.as_ref().is_some_and(is_recorded) {
             self.shown_event = None;
         }
     }
@@ -105,16 +114,20 @@ impl Run {
         self.running.is_none() || failed
     }
 
-    fn report_fault(&mut self, frame: &Frame, talk: &mut Talk) {
-        let Some(fault) = &frame.fault else { return };
-        if frame.state == RunState::Faulted {
+    /// Passes on what a frame says.
+    fn report(&mut self, frame: &Frame, talk: &mut Talk) {
+        if let Some(fault) = news(&self.frame.fault, &frame.fault) {
             talk.notices.push(Notice::error(format!("The simulation stopped: {fault}")));
-            return;
         }
-        // an edit that the simulation refused is in the document and waits for the start
-        talk.notices.push(Notice::warning(format!("Not applied to the running simulation: {fault}")));
-        if let Some(running) = &mut self.running {
-            running.waiting.refused = true;
+        if let Some(message) = news(&self.frame.message, &frame.message) {
+            talk.notices.push(Notice::warning(message));
+        }
+        if let Some(reason) = news(&self.frame.refused, &frame.refused) {
+            talk.notices.push(Notice::warning(format!("Not applied to the running simulation: {reason}")));
+            // The edit is in the document and waits for the start.
+            if let Some(running) = &mut self.running {
+                running.waiting.refused = true;
+            }
         }
     }
 
@@ -175,15 +188,38 @@ impl Run {
         let command = self.send(RunCommand::Load(scene.clone()));
         self.running =
             Some(Running { scene, document: document.clone(), edited: false, waiting: Waiting::default() });
-        self.playback.sent(command, true);
-        self.shown_event = None;
+        self.begin_anew(command, self.frame_at_start());
     }
 
     fn unload(&mut self) {
         let command = self.send(RunCommand::Unload);
         self.running = None;
+        self.begin_anew(command, Frame::default());
+    }
+
+    /// With this command another run begins: nothing plays and nothing is recorded, as the next frame will say.
+    fn begin_anew(&mut self, command: u64, frame: Frame) {
+        (self.begun, self.halted) = (command, command);
         self.playback.sent(command, true);
         self.shown_event = None;
+        let (revision, written) = (self.frame.revision, self.frame.written.clone());
+        self.frame = Arc::new(Frame { revision, written, method: self.playback.method(), ..frame });
+    }
+
+    /// The last frame as though its run stood at the start, which is what is seen until the next one comes.
+    fn frame_at_start(&self) -> Frame {
+        let Frame { bodies, contacts, energy, momentum, plan, tiling, problems, .. } = &*self.frame;
+        Frame {
+            state: RunState::Paused,
+            bodies: bodies.clone(),
+            contacts: contacts.clone(),
+            energy: *energy,
+            momentum: *momentum,
+            plan: plan.clone(),
+            tiling: tiling.clone(),
+            problems: problems.clone(),
+            ..Frame::default()
+        }
     }
 
     /// Forgets the run, so that the next sync loads whatever the document is.
@@ -205,7 +241,7 @@ impl Run {
             }
         } else {
             let command = self.send(RunCommand::Reset);
-            self.playback.sent(command, true);
+            self.begin_anew(command, self.frame_at_start());
         }
     }
 
@@ -235,21 +271,28 @@ impl Run {
     /// Plays at the speed that is set.
     pub fn play(&mut self, way: Way) {
         let speed = self.playback.speed() * way.speed;
+        self.halted = 0;
         self.go_on(RunCommand::Play { dt: self.playback.dt(), speed, range: way.range });
     }
 
     /// Lets a change of Δt or speed take hold while playing.
     pub fn play_on(&mut self, way: Way) {
-        if self.frame.state == RunState::Playing {
+        if self.is_playing() {
             self.play(way);
         }
     }
 
     /// A step is taken from where the user saw the scene stop, not in the middle of playing.
     fn stop_playing(&mut self) {
-        if self.frame.state == RunState::Playing {
+        if self.is_playing() {
             self.pause();
         }
+    }
+
+    /// Whether it plays, as far as the newest frame and the commands sent since tell. A pause that is sent twice would end what was
+    /// sent between.
+    fn is_playing(&self) -> bool {
+        self.frame.state == RunState::Playing && self.frame.command >= self.halted
     }
 
     /// How much of the bodies' ways the frames have.
@@ -273,8 +316,14 @@ impl Run {
     }
 
     pub fn pause(&mut self) {
-        self.send(RunCommand::Pause);
+        self.halted = self.send(RunCommand::Pause);
     }
+}
+
+/// What a frame says, if the one before has not said it: the same words may be said again.
+fn news<'a, T: ?Sized>(before: &Option<Arc<T>>, now: &'a Option<Arc<T>>) -> Option<&'a T> {
+    let is_known = |now: &Arc<T>| before.as_ref().is_some_and(|before| Arc::ptr_eq(before, now));
+    now.as_ref().filter(|now| !is_known(now)).map(|now| &**now)
 }
 
 fn report_written(written: &Written) -> Notice {

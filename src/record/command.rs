@@ -1,5 +1,6 @@
 //! What can be asked of a runner.
 
+use std::collections::VecDeque;
 use std::sync::Arc;
 
 use super::file::WriteRequest;
@@ -48,6 +49,7 @@ pub enum RunCommand {
         /// Again and again between two times, s.
         range: Option<(f64, f64)>,
     },
+    /// Ends what moves the time, and what waits to. Edits and files that wait stay.
     Pause,
     /// One Δt back, one event back.
     StepBack,
@@ -65,6 +67,9 @@ pub enum RunCommand {
         dt: f64,
         time: f64,
     },
+    /// Movements and edits one after the other, each where those before lead to: an edit among them waits for that. A pause ends
+    /// all of it.
+    Script(VecDeque<RunCommand>),
     /// Changes the scene at what is shown; several changes are one edit to go back over. What was recorded for later is
     /// kept until the next edit.
     Edit(Vec<SimEdit>),

@@ -111,6 +111,11 @@ impl Frame {
         self.ledger.get(seq)
     }
 
+    /// Whatever has gone wrong, the worst first.
+    pub fn complaint(&self) -> Option<&str> {
+        self.fault.as_deref().or(self.refused.as_deref()).or(self.message.as_deref())
+    }
+
     /// Whether it stands at the start of the scene.
     pub fn is_at_start(&self) -> bool {
         self.dt_index == 0 && self.open_step.is_none() && self.event_count == 0
@@ -184,6 +189,11 @@ pub struct Frame {
     pub can_step_back: bool,
     /// Why the scene cannot be simulated, or geometric warnings of the start.
     pub problems: Arc<Vec<Diagnostic>>,
-    /// The numerical fault, or why the last edit was refused.
-    pub fault: Option<String>,
+    /// The numerical fault, while it stands where that stopped it. Of this and the two after it a new one has another pointer,
+    /// whatever its words.
+    pub fault: Option<Arc<str>>,
+    /// Why an edit since the start was refused, the last that was.
+    pub refused: Option<Arc<str>>,
+    /// What there is to say of the last command otherwise: why it did nothing, or what came with it.
+    pub message: Option<Arc<str>>,
 }

@@ -18,6 +18,8 @@ mod moving;
 mod paths;
 mod publish;
 mod recorder;
+#[cfg(test)]
+mod recorder_tests;
 mod recording;
 mod rows;
 mod run;

@@ -42,7 +42,7 @@ impl Run {
     /// To a recorded event, with the Δt around it open.
     pub(super) fn go_to_event(&mut self, number: u64) {
         let Some(time) = self.recording.ledger.get(number).map(|row| row.event.time) else {
-            self.message = Some(format!("event {number} is not recorded"));
+            self.message = Some(format!("event {number} is not recorded").into());
             return;
         };
         let moment = Moment::right_after(number, time);
@@ -54,7 +54,8 @@ impl Run {
         if self.recording.from().is_not_after(moment) && moment.is_not_after(self.recording.end) {
             self.show(moment, self.grid_at(moment));
         } else {
-            self.message = Some(format!("event {} at {} s is not recorded", moment.event, moment.time));
+            let text = format!("event {} at {} s is not recorded", moment.event, moment.time);
+            self.message = Some(text.into());
         }
     }
 

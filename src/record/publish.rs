@@ -77,7 +77,9 @@ fn looked_up(base: Frame, run: &Run, span: Option<PathSpan>, crossed: &[NodeKey]
         counters: run.simulation.counters(),
         plan: Arc::new(run.simulation.plan().clone()),
         can_step_back: run.can_step_back(),
-        fault: run.message.clone(),
+        fault: run.fault_here().map(|fault| fault.why.clone()),
+        refused: run.refused.clone(),
+        message: run.message.clone(),
         ..base
     }
 }
@@ -107,7 +109,7 @@ fn recorded(run: &Run) -> Recorded {
         bytes: recording.bytes(),
         budget: recording.budget(),
         edits: recording.edits().iter().map(|edits| edits.at.time).collect(),
-        can_bring_back: run.dropped.is_some(),
+        can_bring_back: run.can_bring_back(),
     }
 }
 

@@ -63,9 +63,8 @@ impl RunRecorder {
         match command {
             RunCommand::Load(scene) => self.load(scene),
             RunCommand::Unload => {
-                let crossings = std::mem::take(&mut self.crossings);
-                let (method, budget, paths) = (self.method, self.budget, self.paths);
-                *self = Self { method, budget, paths, crossings, ..Self::default() };
+                self.forget_work();
+                (self.run, self.motion, self.problems) = (None, None, Arc::default());
             }
             RunCommand::Reset => self.reset(),
             RunCommand::Method(method) if method != self.method => {
@@ -80,7 +79,8 @@ impl RunRecorder {
                 let run = self.run.as_ref().filter(|_| wanted);
                 self.motion = run.map(|run| Arc::new(RecordedMotion::of(&run.recording, &run.simulation)));
             }
-            RunCommand::Pause => self.stop(),
+            RunCommand::Pause => self.pause(),
+            RunCommand::Script(commands) if commands.is_empty() => {}
             // After commands that wait it is meant for where they lead to.
             RunCommand::Edit(edits) if self.waiting.is_empty() => self.edits.extend(edits),
             other => {
@@ -138,12 +138,15 @@ impl RunRecorder {
                 }
             }
             let Some(run) = &mut self.run else {
-                self.stop();
+                self.forget_work();
                 return false;
             };
             if run.is_faulted() {
-                self.stop();
-                return false;
+                self.pause();
+                if self.waiting.is_empty() {
+                    return false;
+                }
+                continue;
             }
             if !self.task.advance(run, &mut budget) {
                 return !matches!(self.task, Task::Play(_));
@@ -172,14 +175,12 @@ impl RunRecorder {
 
     /// Takes the next waiting command; false when there is none.
     fn start_next(&mut self) -> bool {
-        let Some(command) = self.waiting.pop_front() else { return false };
-        let Some(run) = &mut self.run else {
-            self.waiting.clear();
-            return false;
-        };
-        if !run.is_faulted() {
-            run.message = None;
+        if self.run.is_none() {
+            self.forget_work();
         }
+        let Some(command) = self.next_waiting() else { return false };
+        let Some(run) = &mut self.run else { return false };
+        run.message = None;
         let is_valid = |dt: f64| dt.is_finite() && dt > 0.0;
         match command {
             RunCommand::Step { dt, .. }
@@ -217,21 +218,50 @@ impl RunRecorder {
         true
     }
 
-    fn stop(&mut self) {
+    /// Ends what moves the time, or waits to. Edits, and files that wait to be written, are not part of that: whoever sent them
+    /// counts on them.
+    fn pause(&mut self) {
         self.task = Task::Idle;
-        self.waiting.clear();
+        let stays = |command: &RunCommand| {
+            matches!(command, RunCommand::Edit(_) | RunCommand::BringBack | RunCommand::Write(_))
+        };
+        self.waiting.retain(stays);
+    }
+
+    /// Gives up all that is left to do, for its run is no more. Whoever waits for a file hears that there will be none.
+    fn forget_work(&mut self) {
+        self.task = Task::Idle;
         self.edits.clear();
+        for command in std::mem::take(&mut self.waiting) {
+            if let RunCommand::Write(request) = command {
+                let problem = Some("the run was left before".to_owned());
+                self.written = Some(Arc::new(Written { path: request.path, problem }));
+            }
+        }
+    }
+
+    /// Takes the command that is next, out of a script one by one.
+    fn next_waiting(&mut self) -> Option<RunCommand> {
+        let mut commands = match self.waiting.pop_front()? {
+            RunCommand::Script(commands) => commands,
+            other => return Some(other),
+        };
+        let next = commands.pop_front();
+        if !commands.is_empty() {
+            self.waiting.push_front(RunCommand::Script(commands));
+        }
+        next
     }
 
     fn set_budget(&mut self, bytes: usize) {
         self.budget = bytes;
         if let Some(run) = &mut self.run {
-            run.recording.set_budget(bytes);
+            run.set_budget(bytes);
         }
     }
 
     fn load(&mut self, scene: Arc<Scene>) {
-        self.stop();
+        self.forget_work();
         self.motion = None;
         match Simulation::with_method(&scene, self.method) {
             Ok(simulation) => {

@@ -32,16 +32,33 @@ pub(super) struct Run {
     pub(super) applied: usize,
     pub(super) recording: Recording,
     /// What an edit in the past has replaced, until the next edit.
-    pub(super) dropped: Option<Future>,
+    dropped: Option<Replaced>,
     pub(super) drift: Drift,
     /// Deepest overlap at any time looked at so far, m.
     pub(super) worst_overlap: f64,
-    /// The fault that stopped it, or why the last edit was refused.
-    pub(super) message: Option<String>,
-    /// When a fault stopped it.
-    pub(super) fault: Option<Moment>,
+    /// Why the last edit that was refused was: until another one is, for frames come less often than commands.
+    pub(super) refused: Option<Arc<str>>,
+    /// What there is to say of the last command otherwise.
+    pub(super) message: Option<Arc<str>>,
+    /// The fault that stopped it.
+    fault: Option<Stopped>,
     /// Whether the simulation has stopped where it was between two events.
     is_between: bool,
+}
+
+/// A fault, and the moment that it allows nothing after.
+#[derive(Debug)]
+pub(super) struct Stopped {
+    at: Moment,
+    pub(super) why: Arc<str>,
+}
+
+/// What an edit in the past has replaced.
+#[derive(Debug)]
+struct Replaced {
+    future: Future,
+    /// How the books were off at the end of it.
+    drift: Drift,
 }
 
 /// Where to stop inside a Δt.
@@ -86,6 +103,7 @@ impl Run {
             recording,
             dropped: None,
             drift: Drift::default(),
+            refused: None,
             message: None,
             fault: None,
             is_between: false,
@@ -104,7 +122,11 @@ impl Run {
 
     /// Whether a fault keeps it from going on from what is shown.
     pub(super) fn is_faulted(&self) -> bool {
-        self.fault == Some(self.cursor)
+        self.fault_here().is_some()
+    }
+
+    pub(super) fn fault_here(&self) -> Option<&Stopped> {
+        self.fault.as_ref().filter(|fault| fault.at == self.cursor)
     }
 
     /// Goes on in the open Δt, or opens one, until its end, a stop on the way, or the end of the budget: through what is
@@ -165,6 +187,7 @@ impl Run {
                 self.grid.close();
                 self.recording.end_grid = self.grid;
                 self.recording.note_tick(&self.simulation);
+                self.forget_unreachable();
                 Slice::Done
             }
             Err(fault) => {
@@ -211,8 +234,7 @@ impl Run {
 
     /// Notes a fault: nothing goes on from here but back.
     pub(super) fn stop_at(&mut self, fault: &Fault) {
-        self.message = Some(fault.to_string());
-        self.fault = Some(self.at);
+        self.fault = Some(Stopped { at: self.at, why: fault.to_string().into() });
     }
 
     /// The end of the Δt that is open, or is now opened; `None` where another Δt than before makes another future and the
@@ -245,21 +267,38 @@ impl Run {
         self.recording.ledger.rename(Arc::new(Names::of(&self.simulation)));
         let lost = future.edit_count();
         if lost > 0 {
-            self.message = Some(format!("{lost} edit(s) made later no longer apply"));
+            self.message = Some(format!("{lost} edit(s) made later no longer apply").into());
         }
         self.fault = None;
+        let drift = self.drift.clone();
         self.drift.drop_after(self.cursor.event, &self.simulation);
-        self.dropped = Some(future);
+        self.dropped = Some(Replaced { future, drift });
+    }
+
+    /// Whether an edit in the past has replaced something that can be brought back.
+    pub(super) fn can_bring_back(&self) -> bool {
+        self.dropped.is_some()
+    }
+
+    pub(super) fn set_budget(&mut self, bytes: usize) {
+        self.recording.set_budget(bytes);
+        self.forget_unreachable();
+    }
+
+    /// What was replaced continues from a moment: once that is dropped to stay within the budget, it continues nothing.
+    fn forget_unreachable(&mut self) {
+        let from = self.recording.from();
+        self.dropped.take_if(|replaced| !from.is_not_after(replaced.future.from));
     }
 
     /// Takes the last edit in the past back: what it replaced is the future again.
     pub(super) fn bring_back(&mut self) {
-        let Some(future) = self.dropped.take() else {
+        let Some(Replaced { future, drift }) = self.dropped.take() else {
             self.message = Some("no edit in the past has replaced anything".into());
             return;
         };
         let moment = future.from;
-        self.drift.drop_after(moment.event, &self.simulation);
+        self.drift = drift;
         self.recording.put_back(future);
         self.show(moment, self.grid_at(moment));
         self.fault = None;
@@ -285,11 +324,12 @@ impl Run {
         edits.retain(|edit| match self.simulation.apply(edit) {
             Ok(()) => true,
             Err(refused) => {
-                refusal = Some(format!("the running simulation refused the edit: {refused}"));
+                refusal = Some(refused.to_string().into());
                 false
             }
         });
-        self.message = refusal;
+        self.refused = refusal.or(self.refused.take());
+        self.message = None;
         if edits.is_empty() {
             return;
         }

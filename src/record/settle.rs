@@ -105,9 +105,12 @@ impl Run {
 
     fn report_divergence(&mut self, what: &str) {
         let time = self.at.time;
-        self.message.get_or_insert(format!(
-            "simulated again, the run differs from its recording from t = {time} s on: {what}. Please report this scene"
-        ));
+        self.message.get_or_insert_with(|| {
+            format!(
+                "simulated again, the run differs from its recording from t = {time} s on: {what}. Please report this scene"
+            )
+            .into()
+        });
     }
 
     /// When the next recorded edit was made, if no event more comes before it.
@@ -126,8 +129,8 @@ impl Run {
             for edit in &edits {
                 // It was accepted in this very state before: a refusal means that the run is no longer the same.
                 if let Err(refused) = self.simulation.apply(edit) {
-                    self.message =
-                        Some(format!("the edit made at {time} s was refused when run again: {refused}"));
+                    let text = format!("the edit made at {time} s was refused when run again: {refused}");
+                    self.message = Some(text.into());
                 }
             }
         }

@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use glam::DVec3;
 
 use super::command::RunCommand;
+use super::file::WriteRequest;
 use super::frame::{Frame, RunState};
 use super::publish::{Pace, bodies_looked_up, frame_of};
 use super::recorder::RunRecorder;
@@ -72,6 +73,29 @@ fn a_fault_on_the_way_back_reaches_the_frame() {
     assert_eq!((reset.state, reset.fault, reset.time), (RunState::Paused, None, 0.0));
 }
 
+/// Symptom: a recording saved while its run came to a fault was not written, without a word. Expected: it is written, up to the
+/// fault. Cause: a fault dropped all that waits.
+#[test]
+fn a_file_that_waits_is_written_at_a_fault() {
+    let folder = tempfile::tempdir().unwrap();
+    let force = Arc::new(Breakable::default());
+    let mut recorder = recorder(Some(force.clone()));
+    recorder.command(RunCommand::Step { dt: 0.01, count: 1000 });
+    assert!(recorder.work(1));
+    force.0.store(true, Ordering::Relaxed);
+    recorder.command(RunCommand::Step { dt: 0.01, count: 1 });
+    recorder.command(RunCommand::Write(Box::new(WriteRequest {
+        path: folder.path().join("run.psrec"),
+        scene_name: "bounce.xml".into(),
+        scene: include_bytes!("../../scenes/bounce.xml").to_vec(),
+        bookmarks: Vec::new(),
+    })));
+    while recorder.work(u32::MAX) {}
+    let stopped = frame(&mut recorder);
+    assert_eq!(stopped.state, RunState::Faulted);
+    assert_eq!(stopped.written.unwrap().problem, None);
+}
+
 /// Symptom: a recorded edit that the simulation refused when run again was left out without a word.
 /// Expected: the frame has the reason.
 /// Cause: the result of applying a recorded edit was dropped.
@@ -87,11 +111,11 @@ fn an_edit_refused_when_run_again_reaches_the_frame() {
     frame_after(&mut recorder, RunCommand::Step { dt: 0.25, count: 1 });
 
     let again = frame_after(&mut recorder, RunCommand::Seek { dt: 0.25, time: 0.4 });
-    assert_eq!((again.state, again.fault), (RunState::Paused, None));
+    assert_eq!((again.state, again.complaint()), (RunState::Paused, None));
     let again = frame_after(&mut recorder, RunCommand::Seek { dt: 0.25, time: 0.6 });
     assert_eq!(again.state, RunState::Paused);
-    let message = again.fault.unwrap();
-    assert!(message.contains("edit made at 0.5 s") && message.ends_with(&reason), "{message}");
+    let message = again.message.unwrap();
+    assert!(message.contains("edit made at 0.5 s") && message.ends_with(reason.as_str()), "{message}");
 }
 
 /// Symptom: while a run went back, everything waited until it had arrived, for minutes in large scenes.
@@ -144,7 +168,7 @@ fn a_divergence_is_reported() {
     let lower = Simulation::new(document.scene().unwrap()).unwrap();
     recorder.run.as_mut().unwrap().recording.keyframes.exchange_first(&lower);
     let back = frame_after(&mut recorder, RunCommand::StepBack);
-    let message = back.fault.unwrap();
+    let message = back.message.unwrap();
     assert!(message.contains("differs from its recording from t = "), "{message}");
 }
 
@@ -184,7 +208,7 @@ fn what_is_looked_up_is_what_is_simulated_again() {
                 let looked_up = bodies_looked_up(recorder.run.as_ref().unwrap());
                 while recorder.work(u32::MAX) {}
                 let settled = frame(&mut recorder);
-                assert_eq!(settled.fault, None, "{what}");
+                assert_eq!(settled.complaint(), None, "{what}");
                 for (looked_up, settled) in looked_up.iter().zip(&settled.bodies) {
                     assert_eq!(looked_up, settled, "{what}");
                 }

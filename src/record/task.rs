@@ -80,7 +80,8 @@ impl Task {
                     Slice::Event if is_reached(run, *of) => *self = Self::Idle,
                     Slice::Done if *empty >= MOST_STEPS_TO_EVENT => {
                         run.show(moment, grid);
-                        run.message = Some(format!("no event within {MOST_STEPS_TO_EVENT} Δt after this"));
+                        let text = format!("no event within {MOST_STEPS_TO_EVENT} Δt after this");
+                        run.message = Some(text.into());
                         *self = Self::Idle;
                     }
                     Slice::Done => *empty += 1,
@@ -91,7 +92,8 @@ impl Task {
                 if goal.advance(run, *dt, budget, waited) {
                     *self = Self::Idle;
                 } else if *waited >= MOST_EMPTY_STEPS {
-                    run.message = Some(format!("{} within {MOST_EMPTY_STEPS} Δt", goal.missing()));
+                    let text = format!("{} within {MOST_EMPTY_STEPS} Δt", goal.missing());
+                    run.message = Some(text.into());
                     *self = Self::Idle;
                 }
             }

@@ -80,7 +80,7 @@ impl Rerun {
     fn check_end(&self) -> Result<(), RerunError> {
         let (end, time, events) = (self.runner.frame(), self.file.end.time, self.file.end.event);
         let parted = |message: String| Err(RerunError::Parted { time: end.time, message });
-        match (&end.fault, end.state) {
+        match (end.complaint(), end.state) {
             (_, RunState::Faulted) if end.time == time => Ok(()),
             (Some(message), _) => parted(format!("it cannot be run again: {message}")),
             (None, _) if (end.time, end.event_count) != (time, events) => parted(format!(
@@ -105,7 +105,7 @@ impl Rerun {
             self.send(RunCommand::Show(checkpoint.at), &mut |_| go_on(part))?;
             let hash = self.runner.hash().map(|hash| format!("{hash:016x}"));
             let frame = self.runner.frame();
-            if hash.as_deref() != Some(checkpoint.hash.as_str()) || frame.fault.is_some() {
+            if hash.as_deref() != Some(checkpoint.hash.as_str()) || frame.complaint().is_some() {
                 let message = parting(&last, checkpoint, &frame);
                 return Err(RerunError::Parted { time: checkpoint.at.time, message });
             }
@@ -119,7 +119,7 @@ impl Rerun {
 /// Between two states of which the first is still the same: when, and what happens there first in the run made again.
 fn parting(last: &Checkpoint, checkpoint: &Checkpoint, frame: &Frame) -> String {
     let (from, to, event) = (last.at.time, checkpoint.at.time, checkpoint.at.event);
-    let why = frame.fault.clone().unwrap_or_else(|| "the state is another one".to_owned());
+    let why = frame.complaint().unwrap_or("the state is another one");
     let first = frame.ledger.get(last.at.event + 1).filter(|row| row.event.time <= to);
     let first = first.map_or_else(
         || "nothing happens in between".to_owned(),

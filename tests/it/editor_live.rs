@@ -298,7 +298,7 @@ fn an_edit_that_the_run_refuses_is_told_and_waits_for_the_start() {
     let mut bench = Bench::open();
     bench.step();
     bench.change(30, BodyChange::Bounce(0.5));
-    bench.show(|frame| frame.fault = Some("no such body".into()));
+    bench.show(|frame| frame.refused = Some("no such body".into()));
     assert!(bench.session.needs_reset());
     assert!(bench.notices().contains("no such body"));
     bench.wait(Duration::from_secs(1));

@@ -37,6 +37,8 @@ mod editor_random_drags;
 mod editor_recovery;
 // Other programs and windows on the open file.
 mod editor_reload;
+// The session beside its runner: files it writes, bookmarks, what it says, recordings that run again.
+mod editor_run;
 // A session with a runner that writes down what it is told.
 mod editor_support;
 // Undo: one point per gesture, the document alone.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use polyscene::record::{InlineRunner, Of, RunCommand, Runner as _};
-use polyscene::sim::Method;
+use polyscene::sim::{Method, SimEdit};
 
 use crate::common::load::load;
 
@@ -82,4 +82,29 @@ fn going_to_an_event_stands_right_there_and_forgets_later_jumps() {
     let frame = runner.frame();
     runner.send(RunCommand::GoTo { event: 1_000_000 });
     assert_eq!(runner.frame().event_count, frame.event_count, "there is no such event");
+}
+
+/// Symptom: bringing a replaced future back lost its largest change, and the next event had the difference to the other future.
+/// Expected: as though there had been no edit. Cause: the records were dropped, and the residual to compare with was that of the
+/// future given up.
+#[test]
+fn a_future_brought_back_has_its_jumps_again() {
+    for method in [Method::Exact, Method::Thesis] {
+        let mut plain = runner(method);
+        residuals(&mut plain, 20);
+        let mut runner = runner(method);
+        residuals(&mut runner, 20);
+        let (end, largest) = (runner.frame().time, runner.frame().largest_jump);
+        runner.send(RunCommand::GoTo { event: 3 });
+        let key = runner.frame().bodies[0].key;
+        runner.send(RunCommand::Edit(vec![SimEdit::Mass(key, 900.0)]));
+        residuals(&mut runner, 12);
+        runner.send(RunCommand::BringBack);
+        runner.send(RunCommand::GoTo { event: 20 });
+        assert_eq!((runner.frame().time, runner.frame().largest_jump), (end, largest), "{method:?}");
+        residuals(&mut plain, 20);
+        residuals(&mut runner, 20);
+        assert_eq!(runner.frame().event_count, plain.frame().event_count);
+        assert_eq!(runner.frame().largest_jump, plain.frame().largest_jump, "{method:?}");
+    }
 }

@@ -113,7 +113,7 @@ fn edits_inside_a_step_are_replayed() {
         runner.send(RunCommand::NextEvent { dt: 0.1, of: Of::All });
         assert!(runner.frame().open_step.is_some());
         runner.send(RunCommand::Edit(vec![lift()]));
-        assert_eq!(runner.frame().fault, None);
+        assert_eq!(runner.frame().complaint(), None);
         runner.send(RunCommand::FinishStep);
         let after = bits(&step(&mut runner, 0.1, 30));
         for _ in 0..25 {
@@ -139,7 +139,8 @@ fn another_step_length_after_going_back_makes_another_future_and_says_so() {
             runner.send(RunCommand::StepBack);
         }
         let frame = step(&mut runner, 0.07, 20);
-        assert!(frame.fault.as_deref().is_some_and(|text| text.contains("1 edit")), "{:?}", frame.fault);
+        let said = frame.message.as_deref().unwrap_or_default();
+        assert!(said.contains("1 edit"), "{said}");
         let here = bits(&frame);
         step(&mut runner, 0.07, 3);
         for _ in 0..3 {

@@ -111,7 +111,7 @@ fn edits_are_replayed_at_their_stamps_and_a_new_one_makes_a_new_future() {
     };
     let lighter = SimEdit::ChangeForce(Box::new(force));
     runner.send(RunCommand::Edit(vec![lighter]));
-    assert_eq!(runner.frame().fault, None);
+    assert_eq!(runner.frame().complaint(), None);
     let after = bits(&step(&mut runner, 100));
     assert_eq!(runner.frame().energy.and_then(|e| e.residual).map(|r| r.abs() < 1e-10), Some(true));
     for _ in 0..150 {
@@ -150,8 +150,11 @@ fn a_refused_edit_says_why_and_changes_nothing() {
     let before = bits(&step(&mut runner, 10));
     let key = runner.frame().bodies[0].key;
     runner.send(RunCommand::Edit(vec![SimEdit::Mass(key, -1.0)]));
-    assert!(runner.frame().fault.as_deref().is_some_and(|why| why.contains("Weight")));
+    assert!(runner.frame().refused.as_deref().is_some_and(|why| why.contains("Weight")));
     assert_eq!(bits(&runner.frame()), before);
+    // a frame may come only after the next command
+    step(&mut runner, 1);
+    assert!(runner.frame().refused.is_some() && runner.frame().message.is_none());
 }
 
 #[test]
@@ -178,7 +181,7 @@ fn next_event_gives_up_where_nothing_happens() {
     runner.send(RunCommand::Load(Arc::new(scene)));
     runner.send(RunCommand::NextEvent { dt: 0.01, of: Of::All });
     assert_eq!(runner.frame().state, RunState::Paused);
-    assert!(runner.frame().fault.is_some());
+    assert!(runner.frame().message.is_some());
 }
 
 #[test]
@@ -198,7 +201,7 @@ fn commands_without_a_simulation_are_harmless() {
     assert_eq!(runner.frame().state, RunState::Empty);
     let mut runner = loaded("bounce.xml");
     runner.send(RunCommand::Step { dt: 0.0, count: 1 });
-    assert!(runner.frame().fault.is_some());
+    assert!(runner.frame().message.is_some());
     assert_eq!(runner.frame().time, 0.0);
 }
 

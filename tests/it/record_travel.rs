@@ -22,7 +22,7 @@ fn loaded(name: &str) -> InlineRunner {
 fn after(runner: &mut InlineRunner, command: RunCommand) -> Arc<Frame> {
     runner.send(command);
     let frame = runner.frame();
-    assert_eq!(frame.fault, None);
+    assert_eq!(frame.complaint(), None);
     frame
 }
 
@@ -71,7 +71,7 @@ fn seeking_beyond_the_end_runs_on_and_stays_inside_the_step() {
     assert_eq!(bits(&whole), bits(&step(&mut plain, whole.dt_index as u32)));
     for time in [f64::NAN, f64::INFINITY] {
         runner.send(RunCommand::Seek { dt: DT, time });
-        assert_eq!(runner.frame().fault.as_deref(), Some("that is not a time"));
+        assert_eq!(runner.frame().message.as_deref(), Some("that is not a time"));
     }
 }
 
@@ -176,7 +176,7 @@ fn a_goal_that_is_never_reached_is_given_up() {
         let mut runner = loaded(scene);
         runner.send(RunCommand::RunUntil { dt: DT, goal });
         let frame = runner.frame();
-        let said = frame.fault.as_deref().unwrap_or_default();
+        let said = frame.message.as_deref().unwrap_or_default();
         assert!(said.contains(message), "{scene}: {said}");
         assert_eq!(frame.state, RunState::Paused, "{scene}");
         // and it can be gone on from
@@ -294,4 +294,25 @@ fn recorded_motion_is_looked_up_with_the_bits_of_the_run() {
         assert!(motion.state(0, motion.span().1 + 1.0).is_none());
         assert!(after(&mut runner, RunCommand::ShareMotion(false)).motion.is_none());
     }
+}
+
+/// Symptom: once the memory had dropped where an edit was made, bringing back what it replaced left a recording that begins after
+/// its end. Expected: it can no longer be brought back, and that is said. Cause: what was replaced outlived what it continues.
+#[test]
+fn what_continues_a_dropped_past_is_not_brought_back() {
+    let whole = step(&mut loaded("gas.xml"), 3000).recorded.bytes;
+    let mut runner = loaded("gas.xml");
+    runner.send(RunCommand::Budget(whole / 3));
+    let early = step(&mut runner, 60);
+    seek(&mut runner, 0.5 * early.time);
+    let key = early.bodies[0].key;
+    let edited = after(&mut runner, RunCommand::Edit(vec![SimEdit::Mass(key, 9.0)]));
+    assert!(edited.recorded.can_bring_back);
+    let end = step(&mut runner, 3000);
+    assert!(end.recorded.from > edited.time, "from {} s", end.recorded.from);
+    assert!(!end.recorded.can_bring_back);
+    runner.send(RunCommand::BringBack);
+    let frame = runner.frame();
+    assert!(frame.message.is_some());
+    assert_eq!((bits(&frame), &frame.recorded), (bits(&end), &end.recorded));
 }

@@ -43,7 +43,7 @@ impl<'a> Studio<'a> {
         match (self.frame.state, &self.frame.fault) {
             // The message begins with the time, which a fault tells of itself.
             (RunState::Faulted, Some(text)) => {
-                let message = text.split_once(": ").map_or(text.as_str(), |(_, message)| message);
+                let message = text.split_once(": ").map_or(&**text, |(_, message)| message);
                 Err(CliError::Fault(Fault { time: self.frame.time, message: message.to_owned(), key: None }))
             }
             _ => Ok(self.runner.exceeded()),

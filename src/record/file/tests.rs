@@ -46,7 +46,7 @@ fn edited(method: Method) -> (Arc<Frame>, RecordingFile) {
     send(RunCommand::Step { dt: DT, count: 20 });
     send(RunCommand::Edit(vec![SimEdit::Remove(NodeKey(9_000_000))]));
     send(RunCommand::Step { dt: 0.02, count: 10 });
-    assert_eq!(runner.frame().fault, None);
+    assert_eq!(runner.frame().complaint(), None);
     (runner.frame(), runner.recording("thesis.xml", SCENE).unwrap())
 }
 
@@ -62,7 +62,7 @@ fn the_same_run_comes_out_of_a_file_with_edits() {
         }
         let frame = again.frame();
         let name = method.name();
-        assert_eq!(frame.fault, None, "{name}");
+        assert_eq!(frame.complaint(), None, "{name}");
         assert_eq!((frame.time, frame.event_count), (recorded.time, recorded.event_count), "{name}");
         let states = |frame: &Frame| {
             frame.bodies.iter().map(|body| (body.position, body.velocity)).collect::<Vec<_>>()
@@ -70,7 +70,7 @@ fn the_same_run_comes_out_of_a_file_with_edits() {
         assert_eq!(states(&frame), states(&recorded), "{name}");
         for checkpoint in &file.checkpoints {
             again.send(RunCommand::Show(checkpoint.at));
-            assert_eq!(again.frame().fault, None, "{name} at {:?}", checkpoint.at);
+            assert_eq!(again.frame().complaint(), None, "{name} at {:?}", checkpoint.at);
             assert_eq!(
                 format!("{:016x}", again.hash().unwrap()),
                 checkpoint.hash,
@@ -106,13 +106,13 @@ fn an_edit_at_an_event_after_a_long_quiet_time_is_made_again() {
     recorded.send(RunCommand::Edit(vec![SimEdit::Mass(ball, 2.0)]));
     recorded.send(RunCommand::Step { dt, count: 3 });
     // the impact and the edit
-    assert_eq!((recorded.frame().fault.clone(), recorded.frame().event_count), (None, 2));
+    assert_eq!((recorded.frame().complaint(), recorded.frame().event_count), (None, 2));
     let file = recorded.recording("slow.xml", SLOW).unwrap();
     let mut again = runner(&document, Method::Exact);
     for command in file.commands(document.scene().unwrap()).unwrap() {
         again.send(command);
     }
     let (frame, expected) = (again.frame(), recorded.frame());
-    assert_eq!((frame.fault.clone(), frame.time, frame.event_count), (None, expected.time, 2));
+    assert_eq!((frame.complaint(), frame.time, frame.event_count), (None, expected.time, 2));
     assert_eq!(again.hash(), recorded.hash());
 }

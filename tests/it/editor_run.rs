@@ -1,0 +1,149 @@
+//! The session beside its runner: files that the runner writes, bookmarks in a run that has become another one.
+
+use std::sync::Arc;
+
+use polyscene::editor::{Action, SessionCommand, TravelCommand};
+use polyscene::record::{Frame, InlineRunner, Of, RunCommand, RunState, Runner as _, Written};
+use polyscene::scene::Document;
+use polyscene::sim::SimEdit;
+
+use super::editor_support::{Bench, SCENE};
+
+/// Symptom: the second recording saved to one path, and a failure that happened twice, were told once.
+/// Expected: each is told. Cause: what a frame says was compared by its text.
+#[test]
+fn every_written_file_is_told() {
+    let mut bench = Bench::open();
+    for problem in [None, Some("the disk is full".to_owned())] {
+        for nth in 1..=2 {
+            let written = Written { path: "run.psrec".into(), problem: problem.clone() };
+            bench.show(|frame| frame.written = Some(Arc::new(written)));
+            assert!(bench.notices().contains("run.psrec"), "the {nth}. with {problem:?}");
+            bench.show(|_| {});
+            assert_eq!(bench.notices(), "", "told once");
+        }
+    }
+}
+
+/// Symptom: a recording could be written over the scene, under another spelling of its path. Expected: refused, and nothing is
+/// sent. Cause: the paths were compared as text.
+#[test]
+fn a_recording_does_not_replace_the_scene_under_another_name() {
+    let mut bench = Bench::open();
+    let folder = bench.folder.path().canonicalize().unwrap();
+    std::fs::create_dir(folder.join("deeper")).unwrap();
+    bench.act(Action::SaveRecording(folder.join("deeper/../scene.xml")));
+    assert!(bench.notices().contains("is the scene itself"));
+    assert!(bench.sent().is_empty());
+    assert_eq!(std::fs::read_to_string(folder.join("scene.xml")).unwrap(), SCENE);
+}
+
+/// A run of [`SCENE`] with its first ball at another height, at the first event.
+fn at_first_event(falls_from: &str) -> Arc<Frame> {
+    let text = SCENE.replace(r#"<Translation X="3" Y="3" Z="3" />"#, falls_from);
+    let document = Document::from_bytes(text.as_bytes());
+    let mut runner = InlineRunner::new();
+    runner.send(RunCommand::Load(Arc::new(document.scene().unwrap().clone())));
+    runner.send(RunCommand::NextEvent { dt: 0.1, of: Of::All });
+    runner.frame()
+}
+
+/// Symptom: after an edit a bookmark at an event led to whatever event has that number now. Expected: to the bookmark's time,
+/// and to the event only where it is the same. Cause: events were told apart by their numbers alone.
+#[test]
+fn a_bookmark_leads_to_its_time_where_its_event_is_another_one() {
+    let mut bench = Bench::open();
+    bench.step();
+    let like = |from: &Frame| {
+        let from = from.clone();
+        move |frame: &mut Frame| {
+            let (revision, command) = (frame.revision, frame.command);
+            *frame = Frame { revision, command, ..from };
+        }
+    };
+    let (first, other) = (
+        at_first_event(r#"<Translation X="3" Y="3" Z="3" />"#),
+        at_first_event(r#"<Translation X="3" Y="2" Z="3" />"#),
+    );
+    let time = |frame: &Frame| frame.event(1).map(|row| row.event.time);
+    assert_ne!(time(&first), time(&other));
+    bench.show(like(&first));
+    bench.run(SessionCommand::Travel(TravelCommand::AddBookmark));
+    assert_eq!(bench.session.travel().bookmarks()[0].event, Some(1));
+    bench.sent();
+    bench.act(Action::GoToBookmark(0));
+    assert_eq!(bench.sent(), ["GoTo { event: 1 }"]);
+    assert!(bench.session.shown_event().is_some());
+    bench.show(like(&other));
+    assert!(bench.session.shown_event().is_none(), "it is not in this run");
+    bench.act(Action::GoToBookmark(0));
+    let sent = bench.sent();
+    assert!(sent.len() == 1 && sent[0].starts_with("Seek"), "{sent:?}");
+}
+
+/// A recording of [`SCENE`] with an edit, as a file.
+fn recording(bench: &Bench) -> std::path::PathBuf {
+    let document = Document::from_bytes(SCENE.as_bytes());
+    let mut runner = InlineRunner::new();
+    runner.send(RunCommand::Load(Arc::new(document.scene().unwrap().clone())));
+    runner.send(RunCommand::Seek { dt: 0.1, time: 0.5 });
+    let key = runner.frame().bodies[0].key;
+    runner.send(RunCommand::Edit(vec![SimEdit::Mass(key, 2.0)]));
+    runner.send(RunCommand::Seek { dt: 0.1, time: 1.0 });
+    let file = runner.recording("scene.xml", SCENE.as_bytes()).unwrap();
+    bench.file("run.psrec", std::str::from_utf8(&file.to_bytes().unwrap()).unwrap())
+}
+
+/// Symptom: a recording opened while another scene played ran otherwise than recorded. Expected: all its commands reach the
+/// runner together, and none is a pause. Cause: what is known of the scene before was taken for the new one, so that each command
+/// began by ending a playing that had ended, and with it the commands before.
+#[test]
+fn a_recording_opened_while_a_scene_plays_is_run_whole() {
+    let mut bench = Bench::open();
+    let path = recording(&bench);
+    bench.step();
+    bench.show(|frame| frame.state = RunState::Playing);
+    bench.act(Action::OpenPath(path));
+    let sent = bench.sent();
+    let [unload, load, method, script] = &sent[..] else { panic!("{sent:?}") };
+    assert_eq!([unload, load, method], ["Unload", "Load", "Method(Exact)"]);
+    assert!(script.starts_with("Script") && script.matches("Seek").count() == 2, "{script}");
+    // The runner has not shown anything of it yet.
+    bench.wait(std::time::Duration::from_secs(1));
+    assert_ne!(bench.session.frame().state, RunState::Playing);
+    bench.act(Action::SetSpeed(2.0));
+    assert!(bench.sent().is_empty(), "nothing plays");
+}
+
+/// Symptom: of two steps asked for while a scene played, the first was lost. Expected: playing is ended once. Cause: the second
+/// pause, sent before a frame showed the first, ended the step between.
+#[test]
+fn steps_asked_for_at_once_do_not_end_each_other() {
+    let mut bench = Bench::open();
+    bench.step();
+    bench.show(|frame| frame.state = RunState::Playing);
+    bench.run(SessionCommand::StepForward);
+    bench.run(SessionCommand::StepForward);
+    let sent = bench.sent();
+    assert_eq!(sent.iter().filter(|command| *command == "Pause").count(), 1, "{sent:?}");
+    assert_eq!((sent.len(), sent[0].as_str()), (3, "Pause"), "{sent:?}");
+}
+
+/// Symptom: a run that found no event showed "Not applied to the running simulation" and "Reset to apply". Expected: what it says,
+/// each time, and nothing to apply. Cause: a frame had one field for faults, refused edits and messages, compared by its text.
+#[test]
+fn a_message_is_not_a_refused_edit() {
+    let mut bench = Bench::open();
+    bench.step();
+    for _ in 0..2 {
+        bench.show(|frame| frame.message = Some("no event within 100000 Δt".into()));
+        assert_eq!(bench.notices(), "no event within 100000 Δt");
+        assert!(!bench.session.needs_reset());
+        assert!(bench.session.problems().is_empty());
+    }
+    for _ in 0..2 {
+        bench.show(|frame| frame.refused = Some("no such body".into()));
+        assert!(bench.notices().starts_with("Not applied to the running simulation: no such body"));
+        assert!(bench.session.needs_reset());
+    }
+}
