@@ -87,6 +87,8 @@ impl RunRecorder {
                 if matches!(self.task, Task::Play(_)) {
                     self.task = Task::Idle;
                 }
+                // Playing that has not begun ends by what comes after it too: it would never come to that.
+                self.waiting.retain(|waiting| !matches!(waiting, RunCommand::Play { .. }));
                 self.waiting.push_back(other);
             }
         }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::command::RunCommand;
 use super::file::WriteRequest;
-use super::frame::Frame;
+use super::frame::{Frame, RunState};
 use super::publish::{Pace, frame_of};
 use super::recorder::RunRecorder;
 use crate::scene::{Document, NodeKey, Scene};
@@ -135,6 +135,18 @@ fn a_script_makes_its_edits_where_its_movements_lead() {
     let (expected, found) = (frame_when_done(&mut one_by_one), frame_when_done(&mut at_once));
     assert_eq!(found.recorded.edits, [1.0, 2.0]);
     assert_eq!((found.time, found.event_count, &found.bodies), (4.0, expected.event_count, &expected.bodies));
+}
+
+/// Symptom: a step asked for right after playing, while something else was still being worked on, was never made. Expected: it ends
+/// playing, as it does when that has begun. Cause: playing took its turn first, and has no end.
+#[test]
+fn a_step_ends_playing_that_has_not_begun() {
+    let mut recorder = loaded(BOUNCE);
+    recorder.command(RunCommand::Step { dt: 0.01, count: 7 });
+    recorder.command(RunCommand::Play { dt: 0.01, speed: 1.0, range: None });
+    recorder.command(RunCommand::Step { dt: 0.01, count: 3 });
+    let stepped = frame_when_done(&mut recorder);
+    assert_eq!((stepped.state, stepped.dt_index), (RunState::Paused, 10));
 }
 
 /// An edit of a script belongs to the moment it names, and to no other.
