@@ -4,8 +4,9 @@
 use super::clock::step_at;
 use super::data::{Activity, Decaying};
 use super::tolerance::{
-    CROWDED, CROWDED_IN_FIELDS, HALF_LIFE, HALF_LIFE_OF_WORK, LEAST_STRUCK, MOST_AT_ONE_INSTANT,
-    SMALLEST_CROWD, SMALLEST_ELASTIC_CROWD, STRUCK_OFTEN, TOO_MUCH_WORK, WORK_OF_CUBE,
+    CROWDED, CROWDED_IN_FIELDS, HALF_LIFE, HALF_LIFE_OF_WORK, LARGE_ISLAND, LEAST_STRUCK,
+    LEAST_STRUCK_IN_FIELDS, MOST_AT_ONE_INSTANT, SMALLEST_CROWD, SMALLEST_ELASTIC_CROWD, STRUCK_OFTEN,
+    TOO_MUCH_WORK, WORK_OF_CUBE,
 };
 use crate::sim::model::Model;
 use crate::sim::state::State;
@@ -71,9 +72,11 @@ fn crowd(model: &Model, struck: f64) -> Option<usize> {
     if struck >= STRUCK_OFTEN {
         return Some(SMALLEST_CROWD);
     }
-    let crowded = if model.is_ballistic() { CROWDED } else { CROWDED_IN_FIELDS };
-    let least_struck = LEAST_STRUCK * crowded / CROWDED;
-    (struck >= least_struck).then(|| (crowded / struck).ceil() as usize)
+    if model.is_ballistic() {
+        return (struck >= LEAST_STRUCK).then(|| (CROWDED / struck).ceil() as usize);
+    }
+    let large = (CROWDED_IN_FIELDS / struck).max(LARGE_ISLAND as f64);
+    (struck >= LEAST_STRUCK_IN_FIELDS).then(|| large.min(CROWDED / struck).ceil() as usize)
 }
 
 impl Decaying {

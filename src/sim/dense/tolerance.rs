@@ -127,13 +127,13 @@ pub(super) const SMALLEST_ELASTIC_CROWD: usize = 9;
 /// take longer than real time; four times as many, and they play at a third of it until they enter.
 pub(super) const CROWDED: f64 = 2048.0;
 
-/// The same where ways are integrated: an impact costs four to ten times as much there, for each of its predictions is
-/// searched for on an integrated way, and a step hardly more.
+/// The same for [`LARGE_ISLAND`] bodies and more where ways are integrated: an impact costs four to ten times as much there,
+/// for each of its predictions is searched for on an integrated way, and a step hardly more.
 pub(super) const CROWDED_IN_FIELDS: f64 = 512.0;
 
-/// Nobody looks for a crowd around a body that was struck less, in fields by as much less as above: in a gas that would be
-/// in vain each time.
+/// Nobody looks for a crowd around a body that was struck less: in a gas that would be in vain each time.
 pub(super) const LEAST_STRUCK: f64 = 4.0;
+pub(super) const LEAST_STRUCK_IN_FIELDS: f64 = LEAST_STRUCK * CROWDED_IN_FIELDS / CROWDED;
 
 /// Lossy impacts of one body at one instant from which its component is stepped, whatever the others say: no endless
 /// series of impacts without time can outlive it.
