@@ -303,23 +303,7 @@ mod tests {
     use crate::sim::BodyRef;
 
     fn row(seq: u64) -> EventRow {
-        let event = Event {
-            seq,
-            time: (seq / 2) as f64,
-            kind: EventKind::Impact,
-            a: BodyRef::Dynamic(0),
-            b: None,
-            point: glam::DVec3::ZERO,
-            normal: glam::DVec3::X,
-            impulse: 2.0,
-            vn_before: -3.0,
-            vn_after: 1.0,
-            group: 0,
-            row_in_group: [0; 2],
-            bodies: 1,
-            gap: 0.0,
-            rounds: 0,
-        };
+        let event = Event::impact_of_one(seq, (seq / 2) as f64, BodyRef::Dynamic(0), 2.0);
         EventRow { event, a_key: NodeKey(1), b_key: None, a_label: "1".into(), b_label: Arc::default() }
     }
 

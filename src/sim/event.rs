@@ -152,4 +152,11 @@ impl Event {
             rounds: 0,
         }
     }
+
+    /// An impact for tests of lists of events.
+    #[cfg(test)]
+    pub(crate) fn impact_of_one(seq: u64, time: f64, body: BodyRef, impulse: f64) -> Self {
+        let event = Self::of_one(time, EventKind::Impact, body, DVec3::ZERO);
+        Self { seq, normal: DVec3::X, impulse, vn_before: -3.0, vn_after: 1.0, ..event }
+    }
 }

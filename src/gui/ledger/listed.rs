@@ -123,27 +123,12 @@ mod tests {
     use super::*;
     use crate::record::{InlineRunner, RunCommand, Runner as _};
     use crate::scene::NodeKey;
-    use crate::sim::{BodyRef, Event, EventKind};
+    use crate::sim::{BodyRef, Event};
 
     /// Event `seq` of a run in which impulses come in no order.
     fn row(seq: u64) -> EventRow {
-        let event = Event {
-            seq,
-            time: seq as f64,
-            kind: EventKind::Impact,
-            a: BodyRef::Dynamic((seq % 7) as u32),
-            b: None,
-            point: glam::DVec3::ZERO,
-            normal: glam::DVec3::X,
-            impulse: (seq.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 44) as f64,
-            vn_before: -3.0,
-            vn_after: 1.0,
-            group: 0,
-            row_in_group: [0; 2],
-            bodies: 1,
-            gap: 0.0,
-            rounds: 0,
-        };
+        let impulse = (seq.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 44) as f64;
+        let event = Event::impact_of_one(seq, seq as f64, BodyRef::Dynamic((seq % 7) as u32), impulse);
         EventRow { event, a_key: NodeKey(seq % 7), b_key: None, a_label: "1".into(), b_label: Arc::default() }
     }
 
