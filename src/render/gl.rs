@@ -31,6 +31,18 @@ impl Gl {
         unsafe { self.0.get_parameter_string(glow::RENDERER) }
     }
 
+    /// Whether the processor draws, not a GPU.
+    pub fn is_software(&self) -> bool {
+        const NAMES: [&str; 4] = ["llvmpipe", "softpipe", "SwiftShader", "Microsoft Basic Render"];
+        let name = self.device_name();
+        NAMES.iter().any(|software| name.contains(software))
+    }
+
+    /// Waits until all is drawn.
+    pub fn finish(&self) {
+        unsafe { self.0.finish() }
+    }
+
     /// Limits drawing and copying to a rectangle.
     pub fn scissor(&self, rect: PixelRect) {
         unsafe {
@@ -115,19 +127,29 @@ impl Gl {
         }
     }
 
-    /// Copies the colours of one framebuffer to `to` (x, y from the bottom) of another.
+    /// Copies the colours of one framebuffer to `to` (x, y from the bottom) of another, in the size that is wanted there.
     pub fn copy(
         &self,
-        from: glow::Framebuffer,
-        [width, height]: [i32; 2],
-        onto: Option<glow::Framebuffer>,
+        (from, [width, height]): (glow::Framebuffer, [i32; 2]),
+        (onto, [wide, high]): (Option<glow::Framebuffer>, [i32; 2]),
         [x, y]: [i32; 2],
     ) {
         unsafe {
             self.0.bind_framebuffer(glow::READ_FRAMEBUFFER, Some(from));
             self.0.bind_framebuffer(glow::DRAW_FRAMEBUFFER, onto);
-            let (mask, filter) = (glow::COLOR_BUFFER_BIT, glow::NEAREST);
-            self.0.blit_framebuffer(0, 0, width, height, x, y, x + width, y + height, mask, filter);
+            let filter = if [width, height] == [wide, high] { glow::NEAREST } else { glow::LINEAR };
+            self.0.blit_framebuffer(
+                0,
+                0,
+                width,
+                height,
+                x,
+                y,
+                x + wide,
+                y + high,
+                glow::COLOR_BUFFER_BIT,
+                filter,
+            );
         }
     }
 

@@ -16,5 +16,6 @@ mod view_target;
 pub use error::RenderError;
 pub use offscreen::Offscreen;
 pub use picture::{Tile, png, render_picture, write_png};
-pub use renderer::{PixelRect, Renderer};
+pub use renderer::{PixelRect, Renderer, Showing};
 pub use text::draw_labels;
+pub use view_target::Quality;

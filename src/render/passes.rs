@@ -10,6 +10,7 @@ use super::RenderError;
 use super::batch::Batch;
 use super::gl::Gl;
 use super::programs::Programs;
+use super::view_target::Quality;
 use crate::view::DrawList;
 
 /// Programs and buffers; the buffers hold one list at a time.
@@ -51,10 +52,11 @@ impl Passes {
         Gl(Arc::clone(&self.context))
     }
 
-    /// Draws the whole list; `size` is the bound framebuffer's, pixels.
-    pub fn draw(&mut self, list: &DrawList, size: [u32; 2]) {
-        self.upload(list);
-        let view = View::new(list, size);
+    /// Draws the whole list for a picture of `size` pixels; the bound framebuffer has as many as its quality wants.
+    pub fn draw(&mut self, list: &DrawList, size: [u32; 2], quality: Quality) {
+        let drawn = size.map(|side| quality.pixels(side));
+        self.upload(list, drawn[1] as f32 / size[1].max(1) as f32);
+        let view = View::new(list, drawn);
         self.clear(&view);
         // Orthographic views have a far limit; bodies beyond it are to be seen.
         self.gl().clamp_depth(!list.is_perspective);
@@ -69,8 +71,9 @@ impl Passes {
         self.draw_strokes(&self.strokes, &view.flat(), 0.0, ON_TOP);
     }
 
-    fn upload(&mut self, list: &DrawList) {
-        let scale = list.viewport.pixels_per_point as f32;
+    /// `share` is that of the pixels that are drawn, each way.
+    fn upload(&mut self, list: &DrawList, share: f32) {
+        let scale = share * list.viewport.pixels_per_point as f32;
         let (solid, glass): (Vec<_>, Vec<_>) = list.plates.iter().partition(|plate| plate.color.is_opaque());
         self.background.fill_background(list.background);
         self.spheres.fill_spheres(&list.spheres, scale);

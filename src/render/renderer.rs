@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::RenderError;
 use super::passes::Passes;
-use super::view_target::ViewTarget;
+use super::view_target::{Quality, ViewTarget};
 use crate::view::DrawList;
 
 /// A rectangle of a framebuffer in pixels; `y` counts from the bottom.
@@ -32,37 +32,46 @@ impl PixelRect {
     }
 }
 
+/// Where a view's picture goes in the bound framebuffer, what of that is seen, and how it is drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Showing {
+    pub rect: PixelRect,
+    pub clip: PixelRect,
+    pub quality: Quality,
+}
+
 /// Everything that lives in one OpenGL context. All calls must be made with that context current.
 pub struct Renderer {
     passes: Passes,
     views: BTreeMap<usize, ViewTarget>,
+    is_software: bool,
 }
 
 impl Renderer {
     /// Compiles the shaders.
     pub fn new(gl: Arc<glow::Context>) -> Result<Self, RenderError> {
         let context = three_d::Context::from_gl_context(gl)?;
-        Ok(Self { passes: Passes::new(context)?, views: BTreeMap::new() })
+        let passes = Passes::new(context)?;
+        let is_software = passes.gl().is_software();
+        Ok(Self { passes, views: BTreeMap::new(), is_software })
     }
 
-    /// Puts the picture of `list` at `rect` of the bound framebuffer, cut to `clip`; redraws it only if
-    /// `list.revision` or the size differs from what this `view` (any number the caller chooses) showed
-    /// last. Leaves the bound framebuffer bound; other state (scissor, blending, program) is not restored.
-    /// Returns whether it was redrawn. The labels are left to the caller.
-    pub fn paint(
-        &mut self,
-        view: usize,
-        list: &DrawList,
-        rect: PixelRect,
-        clip: PixelRect,
-    ) -> Result<bool, RenderError> {
+    /// Puts the picture of `list` where it is to be shown; redraws it only if `list.revision` or the size differs from what
+    /// this `view` (any number the caller chooses) showed last, or if it was drawn less well. Leaves the bound framebuffer
+    /// bound; other state (scissor, blending, program) is not restored. Returns whether it was redrawn. The labels are left
+    /// to the caller. Where the processor draws, it is done when this returns: the caller can see how long it takes.
+    pub fn paint(&mut self, view: usize, list: &DrawList, showing: Showing) -> Result<bool, RenderError> {
+        let Showing { rect, clip, quality } = showing;
         let visible = rect.intersection(clip);
         if visible.is_empty() {
             return Ok(false);
         }
         let gl = self.passes.gl();
         let bound = gl.bound_framebuffer();
-        let redrawn = self.update(view, list, [rect.width as u32, rect.height as u32]);
+        let redrawn = self.update(view, list, [rect.width as u32, rect.height as u32], quality);
+        if self.is_software && matches!(redrawn, Ok(true)) {
+            gl.finish();
+        }
         gl.scissor(visible);
         gl.bind_framebuffer(bound);
         let redrawn = redrawn?;
@@ -80,22 +89,28 @@ impl Renderer {
     /// Draws `list` at that size and returns the pixels: RGBA, top row first, without labels.
     pub(super) fn read(&mut self, list: &DrawList, size: [u32; 2]) -> Result<Vec<u8>, RenderError> {
         const PICTURE: usize = usize::MAX;
-        self.update(PICTURE, list, size)?;
+        self.update(PICTURE, list, size, Quality::Full)?;
         let bottom_up = self.views.get(&PICTURE).map(ViewTarget::read).unwrap_or_default();
         let row = size[0] as usize * 4;
         Ok(bottom_up.chunks_exact(row.max(1)).rev().flatten().copied().collect())
     }
 
-    fn update(&mut self, view: usize, list: &DrawList, size: [u32; 2]) -> Result<bool, RenderError> {
+    fn update(
+        &mut self,
+        view: usize,
+        list: &DrawList,
+        size: [u32; 2],
+        quality: Quality,
+    ) -> Result<bool, RenderError> {
         let target = match self.views.entry(view) {
             Entry::Occupied(entry) => entry.into_mut(),
             Entry::Vacant(entry) => entry.insert(ViewTarget::new(self.passes.gl())?),
         };
-        if target.shows(list.revision, size) {
+        if target.shows(list.revision, size, quality) {
             return Ok(false);
         }
-        target.resize(size)?;
-        target.draw(list.revision, || self.passes.draw(list, size));
+        target.resize(size, quality)?;
+        target.draw(list.revision, || self.passes.draw(list, size, quality));
         Ok(true)
     }
 }

@@ -7,8 +7,8 @@ use super::account::angular;
 use super::capture::free_if_struck;
 use super::contact::Contact;
 use super::dense::{
-    LARGE_ISLAND, Role, SMALLEST_CROWD, component, enter, least_crowd, least_elastic_crowd, note_impact,
-    note_work,
+    LARGE_ISLAND, Role, SMALLEST_CROWD, component, enter, least_crowd, least_elastic_crowd, may_be_crowd,
+    note_impact, note_too_few, note_work,
 };
 use super::event::{Event, EventKind};
 use super::exchange::{exchange, velocity_change};
@@ -87,12 +87,16 @@ fn least_crowd_of(model: &Model, state: &State, pair: Pair, gap: &Gap, time: f64
 
 /// Lets the bodies of an impact be stepped with all that they touch, if so many can move; whether they can.
 fn enter_crowd(model: &Model, state: &mut State, pair: Pair, least: usize, time: f64) -> Result<bool, Fault> {
-    let Some(dense) = &state.dense else { return Ok(false) };
+    let Some(dense) = state.dense.as_ref().filter(|_| may_be_crowd(state, pair.dynamic(), least, time))
+    else {
+        return Ok(false);
+    };
     let bodies = component(model, state, dense, &pair.dynamic().collect::<Vec<u32>>(), time);
     let moving = bodies.iter().filter(|body| !state.captured.contains(body)).count();
     // Where bodies rub, even one between what is fixed may be struck without end.
     let is_endless = model.plan.spin && least <= SMALLEST_CROWD;
     if moving < least && !is_endless {
+        note_too_few(model, state, &bodies, time);
         return Ok(false);
     }
     enter(model, state, &bodies, time)?;

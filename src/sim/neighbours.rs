@@ -192,6 +192,13 @@ fn sieve(model: &Model, state: &State, others: &mut Vec<u32>, body: u32, time: f
     if least < largest {
         keep(others, |other| !passes(other, radius + model.radius(other)));
     }
+    if segment.end.is_finite() {
+        let path = state.path(body);
+        let apart = |other: u32| {
+            predict::surely_stay_apart(path, state.path(other), radius + model.radius(other), near)
+        };
+        keep(others, |other| is_stepped(other) || !apart(other));
+    }
     looked_at - others.len()
 }
 

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use glam::{DVec3, dvec3};
 use image::RgbaImage;
-use polyscene::render::{Offscreen, PixelRect, Renderer, Tile, render_picture};
+use polyscene::render::{Offscreen, PixelRect, Quality, Renderer, Showing, Tile, render_picture};
 use polyscene::scene::{Body, Scene};
 use polyscene::view::{
     Camera, OVERLAYS, OverlaySet, Projection, Theme, VIEWS, ViewInput, Viewport, build_draw_list,
@@ -220,6 +220,7 @@ fn everything_at_once_draws_in_both_themes_and_with_labels() {
 
 #[test]
 fn a_view_is_drawn_again_only_when_its_list_changed() {
+    let full = |rect, clip| Showing { rect, clip, quality: Quality::Full };
     let mut offscreen = Offscreen::new().unwrap();
     let mut renderer = Renderer::new(offscreen.gl().clone()).unwrap();
     offscreen.bind_window([300, 200]).unwrap();
@@ -228,22 +229,46 @@ fn a_view_is_drawn_again_only_when_its_list_changed() {
         build_draw_list(&ViewInput::new(&scene, Camera::default(), Viewport::new(200.0, 100.0, 1.0)));
     list.revision = 5;
     let rect = PixelRect { x: 10, y: 10, width: 200, height: 100 };
-    assert!(renderer.paint(0, &list, rect, rect).unwrap());
+    assert!(renderer.paint(0, &list, full(rect, rect)).unwrap());
     let window = offscreen.read_window().unwrap();
     assert_eq!(window.get_pixel(9, 150).0, [0; 4], "left of the view");
     assert_eq!(window.get_pixel(10, 189).0[3], 255, "its bottom left corner");
     assert_eq!(window.get_pixel(210, 150).0, [0; 4], "right of the view");
-    assert!(!renderer.paint(0, &list, rect, rect).unwrap(), "nothing changed");
-    assert!(renderer.paint(1, &list, rect, rect).unwrap(), "another view");
+    assert!(!renderer.paint(0, &list, full(rect, rect)).unwrap(), "nothing changed");
+    assert!(renderer.paint(1, &list, full(rect, rect)).unwrap(), "another view");
     list.revision = 6;
-    assert!(renderer.paint(0, &list, rect, rect).unwrap(), "another list");
+    assert!(renderer.paint(0, &list, full(rect, rect)).unwrap(), "another list");
     let larger = PixelRect { width: 210, ..rect };
-    assert!(renderer.paint(0, &list, larger, larger).unwrap(), "another size");
+    assert!(renderer.paint(0, &list, full(larger, larger)).unwrap(), "another size");
     let elsewhere = PixelRect { x: 500, ..rect };
-    assert!(!renderer.paint(2, &list, rect, elsewhere).unwrap(), "out of sight");
+    assert!(!renderer.paint(2, &list, full(rect, elsewhere)).unwrap(), "out of sight");
     list.revision = 0;
-    assert!(renderer.paint(0, &list, larger, larger).unwrap());
-    assert!(renderer.paint(0, &list, larger, larger).unwrap(), "0 is never kept");
+    assert!(renderer.paint(0, &list, full(larger, larger)).unwrap());
+    assert!(renderer.paint(0, &list, full(larger, larger)).unwrap(), "0 is never kept");
+}
+
+#[test]
+fn a_draft_looks_like_the_picture_and_makes_way_for_it() {
+    let mut offscreen = Offscreen::new().unwrap();
+    let mut renderer = Renderer::new(offscreen.gl().clone()).unwrap();
+    let size = [301, 201];
+    offscreen.bind_window(size).unwrap();
+    let scene = furnished_box();
+    let mut list =
+        build_draw_list(&ViewInput::new(&scene, Camera::default(), Viewport::new(301.0, 201.0, 1.0)));
+    list.revision = 5;
+    let rect = PixelRect { x: 0, y: 0, width: 301, height: 201 };
+    let mut paint = |quality| renderer.paint(0, &list, Showing { rect, clip: rect, quality }).unwrap();
+    assert!(paint(Quality::Draft));
+    assert!(!paint(Quality::Draft), "nothing changed");
+    let draft = offscreen.read_window().unwrap();
+    assert!(paint(Quality::Full), "a draft will not do");
+    let full = offscreen.read_window().unwrap();
+    assert!(!paint(Quality::Draft), "what is there is better");
+    let channels = draft.as_raw().iter().zip(full.as_raw());
+    let off: u64 = channels.map(|(draft, full)| u64::from(draft.abs_diff(*full))).sum();
+    assert!(off > 0, "a draft is coarser");
+    assert!(off / (draft.as_raw().len() as u64) < 4, "and shows the same at the same place");
 }
 
 #[test]

@@ -1,13 +1,15 @@
 //! Draw lists onto the window: the picture by OpenGL, its labels by egui.
 
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
 
 use eframe::egui_glow;
 use egui::{Align2, FontId, Rect, Ui, vec2};
 
+use super::pace::Pace;
 use crate::gui::colors::color32;
-use crate::render::{PixelRect, Renderer};
+use crate::render::{PixelRect, Quality, Renderer, Showing};
 use crate::view::{Color, DrawList, Label};
 
 /// What draws the views; without OpenGL (in tests) it draws only their labels.
@@ -19,6 +21,7 @@ pub struct Canvas {
 struct Gpu {
     renderer: Mutex<Renderer>,
     failure: Mutex<Option<String>>,
+    pace: Mutex<Pace>,
     redraws: AtomicU64,
 }
 
@@ -32,6 +35,7 @@ impl Canvas {
                 let gpu = Gpu {
                     renderer: Mutex::new(renderer),
                     failure: Mutex::new(None),
+                    pace: Mutex::default(),
                     redraws: AtomicU64::new(0),
                 };
                 (Self { gpu: Some(Arc::new(gpu)) }, None)
@@ -43,14 +47,24 @@ impl Canvas {
         self.gpu.as_ref().map_or(0, |gpu| gpu.redraws.load(Ordering::Relaxed))
     }
 
+    /// Whether one of the views that are shown is a draft yet.
+    pub fn has_drafts(&self, is_shown: impl Fn(usize) -> bool) -> bool {
+        self.gpu.as_ref().is_some_and(|gpu| gpu.pace().has_drafts(is_shown))
+    }
+
     /// Puts a view's picture and labels at `rect`. `view` distinguishes the views.
     pub fn draw(&self, ui: &Ui, view: usize, rect: Rect, list: &Arc<DrawList>) {
         let painter = ui.painter_at(rect);
         let [top, _] = list.background;
         painter.rect_filled(rect, 0.0, color32(top));
         if let Some(gpu) = &self.gpu {
+            let (quality, again_s) = gpu.pace().quality(view, list.revision, ui.input(|input| input.time));
+            if let Some(again_s) = again_s {
+                ui.ctx().request_repaint_after(Duration::from_secs_f64(again_s));
+            }
             let (gpu, list) = (gpu.clone(), list.clone());
-            let callback = egui_glow::CallbackFn::new(move |info, _| gpu.paint(view, &list, &info));
+            let callback =
+                egui_glow::CallbackFn::new(move |info, _| gpu.paint((view, quality), &list, &info));
             painter.add(egui::PaintCallback { rect, callback: Arc::new(callback) });
             if let Some(failure) = self.failure() {
                 let font = FontId::proportional(13.0);
@@ -71,12 +85,21 @@ impl Canvas {
 }
 
 impl Gpu {
-    fn paint(&self, view: usize, list: &DrawList, info: &egui::PaintCallbackInfo) {
+    fn pace(&self) -> MutexGuard<'_, Pace> {
+        self.pace.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn paint(&self, (view, quality): (usize, Quality), list: &DrawList, info: &egui::PaintCallbackInfo) {
         let mut renderer = self.renderer.lock().unwrap_or_else(PoisonError::into_inner);
         let rect = pixel_rect(&info.viewport_in_pixels());
         let clip = pixel_rect(&info.clip_rect_in_pixels());
-        match renderer.paint(view, list, rect, clip) {
-            Ok(redrawn) => drop(self.redraws.fetch_add(u64::from(redrawn), Ordering::Relaxed)),
+        let begun = Instant::now();
+        match renderer.paint(view, list, Showing { rect, clip, quality }) {
+            Ok(false) => {}
+            Ok(true) => {
+                self.pace().note(view, quality, begun.elapsed().as_secs_f64());
+                self.redraws.fetch_add(1, Ordering::Relaxed);
+            }
             Err(error) => {
                 let mut failure = self.failure.lock().unwrap_or_else(PoisonError::into_inner);
                 *failure = Some(error.to_string());

@@ -8,6 +8,7 @@ mod gestures;
 mod gizmo;
 mod linking;
 mod manipulate;
+mod pace;
 mod pane;
 mod rubber;
 mod turns;
@@ -154,9 +155,9 @@ impl Views {
         }
     }
 
-    /// Whether a view waits for its turn to show what is now.
+    /// Whether a view waits for its turn to show what is now, or to be drawn in full.
     pub fn are_behind(&self) -> bool {
-        self.turns.are_behind()
+        self.turns.are_behind() || self.canvas.has_drafts(|view| self.is_shown(view))
     }
 
     pub fn remembered(&self) -> Remembered {

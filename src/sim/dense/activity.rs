@@ -4,7 +4,7 @@
 use super::clock::step_at;
 use super::data::{Activity, Decaying};
 use super::tolerance::{
-    CROWDED, CROWDED_IN_FIELDS, HALF_LIFE, HALF_LIFE_OF_WORK, LARGE_ISLAND, LEAST_STRUCK,
+    CROWDED, CROWDED_IN_FIELDS, HALF_LIFE, HALF_LIFE_OF_WORK, LARGE_ISLAND, LEAST_CROWD, LEAST_STRUCK,
     LEAST_STRUCK_IN_FIELDS, MOST_AT_ONE_INSTANT, SMALLEST_CROWD, SMALLEST_ELASTIC_CROWD, STRUCK_OFTEN,
     TOO_MUCH_WORK, WORK_OF_CUBE,
 };
@@ -45,7 +45,7 @@ pub(in crate::sim) fn least_crowd(model: &Model, state: &State, body: u32, time:
     let step = step_of(model, state, body, time);
     let is_stuck = *instant == time && *at_once >= MOST_AT_ONE_INSTANT;
     if is_stuck || work.at(time, HALF_LIFE_OF_WORK * step) >= TOO_MUCH_WORK {
-        return Some(2);
+        return Some(LEAST_CROWD);
     }
     crowd(model, lossy.at(time, HALF_LIFE * step))
 }
@@ -60,6 +60,28 @@ pub(in crate::sim) fn least_elastic_crowd(
     let impacts = &state.dense.as_ref()?.activity[body as usize].impacts;
     let half_life = HALF_LIFE * step_of(model, state, body, time);
     crowd(model, impacts.at(time, half_life)).map(|least| least.max(SMALLEST_ELASTIC_CROWD))
+}
+
+/// Whether a crowd of so many is to be looked for around bodies: not again within a step after that was in vain, unless the
+/// least will do.
+pub(in crate::sim) fn may_be_crowd(
+    state: &State,
+    bodies: impl Iterator<Item = u32>,
+    least: usize,
+    time: f64,
+) -> bool {
+    let Some(dense) = &state.dense else { return false };
+    let mut bodies = bodies;
+    least <= LEAST_CROWD || bodies.any(|body| time >= dense.activity[body as usize].alone_until)
+}
+
+/// Notes that some bodies are all that touch each other, and too few.
+pub(in crate::sim) fn note_too_few(model: &Model, state: &mut State, bodies: &[u32], time: f64) {
+    for body in bodies {
+        let until = time + step_of(model, state, *body, time);
+        let Some(dense) = &mut state.dense else { return };
+        dense.activity[*body as usize].alone_until = until;
+    }
 }
 
 /// The step of a body where it is, s.

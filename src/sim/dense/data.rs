@@ -30,6 +30,8 @@ pub(in crate::sim) struct Activity {
     /// Time of the last lossy impact, s, and how many there were at that time.
     pub instant: f64,
     pub at_once: u32,
+    /// Until when nobody looks for a crowd around it again, s: the last look was in vain.
+    pub alone_until: f64,
 }
 
 /// A sum of which half is forgotten in some time.

@@ -219,7 +219,7 @@ fn try_step(
         return Ok(false);
     }
     for component in &mut due {
-        component.work.is_still = is_still(model, dense, component, time);
+        component.work.is_still = is_still(model, state, dense, component, time);
         if !component.work.is_still {
             propose(model, state, dense, component, time);
         }

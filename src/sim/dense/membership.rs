@@ -8,10 +8,8 @@ use super::data::{Dense, Member, Role};
 use super::tolerance::SAME_COMPONENT;
 use super::view::forget_forces;
 use crate::sim::body::BodyId;
-use crate::sim::geometry::gap_of;
 use crate::sim::model::Model;
 use crate::sim::neighbours::within;
-use crate::sim::pair::Pair;
 use crate::sim::state::State;
 
 /// Some bodies that are not stepped, with all that they touch, directly or through others, and that are not stepped
@@ -40,11 +38,11 @@ pub(in crate::sim) fn component(
                 see(other, &mut bodies);
             }
         }
-        let near = SAME_COMPONENT * model.radius(body);
-        within(model, state, state.position(body, time), model.radius(body) + near, |_| true, &mut found);
+        let (at, reach) = (state.position(body, time), (1.0 + SAME_COMPONENT) * model.radius(body));
+        within(model, state, at, reach, |other| other != body, &mut found);
         for other in found.drain(..).filter_map(BodyId::dynamic) {
-            let pair = || Pair::of(body, BodyId::of_dynamic(other));
-            if other != body && gap_of(model, state, pair(), time).distance <= near {
+            let reach = reach + model.radius(other);
+            if (state.position(other, time) - at).length_squared() <= reach * reach {
                 see(other, &mut bodies);
             }
         }

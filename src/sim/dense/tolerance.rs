@@ -118,6 +118,9 @@ pub(super) const STRUCK_OFTEN: f64 = 256.0;
 pub(super) const HALF_LIFE: f64 = 4.0;
 pub(in crate::sim) const SMALLEST_CROWD: usize = 4;
 
+/// Of how many moving bodies a component must be that stands still in time, or costs too much.
+pub(super) const LEAST_CROWD: usize = 2;
+
 /// Elastic bodies that squeeze each other part again, after ever so many impacts as their masses differ. Up to eight are
 /// followed through them all; among more there is no end to it.
 pub(super) const SMALLEST_ELASTIC_CROWD: usize = 9;

@@ -22,7 +22,7 @@ use super::shape::{Convex, Plate, Shape};
 
 pub(super) use beyond::first_beyond;
 pub(super) use gap::{Ball, Gap, touch_tolerance};
-pub(super) use sphere_sphere::surely_pass;
+pub(super) use sphere_sphere::{surely_pass, surely_stay_apart};
 
 /// What a dynamic sphere may meet: another body as prediction sees it. The list of pairs.
 #[derive(Clone, Copy)]

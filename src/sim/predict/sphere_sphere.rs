@@ -107,6 +107,20 @@ pub(in crate::sim) fn surely_pass(a: &Segment, b: &Segment, reach: f64, near: f6
     apart & ((p.dot(v) >= 0.0) | misses(p, v, reach))
 }
 
+/// Whether two spheres surely stay farther apart than `reach` and `near`, m, while both of their segments last, whatever
+/// drives them: from the straight way they part by ½Aτ² at most, where |ẍ| ≤ A.
+pub(in crate::sim) fn surely_stay_apart(a: Path<'_>, b: Path<'_>, reach: f64, near: f64) -> bool {
+    let (seg_a, seg_b) = (a.segment, b.segment);
+    let from = seg_a.start.max(seg_b.start);
+    let lasts = seg_a.end.min(seg_b.end) - from;
+    let p = b.position(from) - a.position(from);
+    let v = b.velocity(from) - a.velocity(from);
+    let bends = 0.5 * (seg_a.acceleration_bound + seg_b.acceleration_bound) * lasts * lasts;
+    let nearest = p + (-p.dot(v) / v.length_squared()).clamp(0.0, lasts.max(0.0)) * v;
+    let kept = reach + near + bends;
+    nearest.length_squared() > kept * kept
+}
+
 pub(super) fn gap(a: Ball<'_>, b: Ball<'_>, time: f64) -> Gap {
     gap_between(&relative(a, b, time), a.path.position(time), a.radius, b.radius)
 }

@@ -5,7 +5,7 @@ use std::cell::Cell;
 use glam::DVec3;
 
 use super::advance::{Skip, Span, first_contact as advance};
-use super::{Ball, Gap, Target, first_contact, gap};
+use super::{Ball, Gap, Target, first_contact, gap, surely_stay_apart};
 use super::{sphere_plate, sphere_sphere};
 use crate::random::Random;
 use crate::sim::segment::{Path, Segment, Series};
@@ -141,6 +141,34 @@ fn random_paths_through_fields_agree_with_samples() {
         }
     }
     assert!((250..750).contains(&hits), "{hits} hits of 900: aim better");
+}
+
+#[test]
+fn those_that_surely_stay_apart_do_so_in_samples() {
+    let (mut random, mut apart, mut near) = (Random::new(12), 0, 0);
+    for _ in 0..2000 {
+        let mut through_a_field = |reach: f64| {
+            let (a, end) = (random.vector(2.0), random.range(0.1, 1.0));
+            let series = Series { b: std::array::from_fn(|_| random.vector(0.5)), low: DVec3::ZERO };
+            let mut way = flight(random.vector(reach), random.vector(2.0), a, end);
+            (way.start, way.step) = (random.range(0.0, 0.1), end);
+            way.acceleration_bound = a.length() + series.bound();
+            (way, series)
+        };
+        let ways = [through_a_field(2.0), through_a_field(2.0)];
+        let [a, b] = ways.each_ref().map(|(segment, series)| Path { segment, series: Some(series) });
+        let (from, until) = (a.segment.start.max(b.segment.start), a.segment.end.min(b.segment.end));
+        let at = |k: i32| from + (until - from) * f64::from(k) / 200.0;
+        let least =
+            (0..=200).map(|k| (b.position(at(k)) - a.position(at(k))).length()).fold(f64::INFINITY, f64::min);
+        if surely_stay_apart(a, b, 0.4, 0.1) {
+            assert!(least > 0.5, "{least}");
+            apart += 1;
+        } else {
+            near += u32::from(least > 0.5);
+        }
+    }
+    assert!(apart > near, "{apart} are told, {near} are not");
 }
 
 #[test]

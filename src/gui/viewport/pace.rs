@@ -1,0 +1,103 @@
+//! How well views are drawn: those that take long, as where the processor draws, as drafts while they change, and in full
+//! as soon as they rest.
+
+use std::collections::BTreeMap;
+
+use crate::render::Quality;
+
+/// A view that takes longer than this in full makes a hand wait, s: two of them and the panels are a frame.
+const SLOW_S: f64 = 0.012;
+
+/// A view that has not changed for so long rests, s: longer than from one move of a hand to the next.
+const REST_S: f64 = 0.15;
+
+/// What is known of the views drawn so far.
+#[derive(Default)]
+pub(super) struct Pace {
+    views: BTreeMap<usize, Drawn>,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Drawn {
+    /// What the last picture in full took, s.
+    full_s: f64,
+    /// What is to be seen, and since when, s.
+    revision: u64,
+    since_s: f64,
+    /// Whether that was drawn in full.
+    is_full: bool,
+}
+
+impl Pace {
+    /// How to draw a view's picture of that revision at a time, s; with a draft, in how many seconds to look again.
+    pub fn quality(&mut self, view: usize, revision: u64, now_s: f64) -> (Quality, Option<f64>) {
+        let drawn = self.views.entry(view).or_default();
+        if drawn.revision != revision || revision == 0 {
+            *drawn = Drawn { revision, since_s: now_s, is_full: false, ..*drawn };
+        }
+        let left = REST_S - (now_s - drawn.since_s);
+        if drawn.is_full || drawn.full_s <= SLOW_S || left <= 0.0 {
+            return (Quality::Full, None);
+        }
+        (Quality::Draft, Some(left))
+    }
+
+    /// Notes that a view was drawn, and how long that took, s.
+    pub fn note(&mut self, view: usize, quality: Quality, took_s: f64) {
+        let drawn = self.views.entry(view).or_default();
+        if quality == Quality::Full {
+            (drawn.full_s, drawn.is_full) = (took_s, true);
+        }
+    }
+
+    /// Whether one of the views is still to be drawn in full.
+    pub fn has_drafts(&self, is_shown: impl Fn(usize) -> bool) -> bool {
+        let waits = |drawn: &Drawn| !drawn.is_full && drawn.full_s > SLOW_S;
+        self.views.iter().any(|(view, drawn)| is_shown(*view) && waits(drawn))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_drawn_quickly_is_drawn_in_full() {
+        let mut pace = Pace::default();
+        for revision in 1..9 {
+            assert_eq!(pace.quality(0, revision, 0.02 * revision as f64), (Quality::Full, None));
+            pace.note(0, Quality::Full, 0.002);
+            assert!(!pace.has_drafts(|_| true));
+        }
+    }
+
+    #[test]
+    fn what_takes_long_is_a_draft_until_it_rests() {
+        let mut pace = Pace::default();
+        assert_eq!(pace.quality(0, 1, 0.0).0, Quality::Full);
+        pace.note(0, Quality::Full, 0.2);
+        assert_eq!(pace.quality(0, 1, 0.1), (Quality::Full, None), "it is there");
+        for (revision, now_s) in [(2, 1.0), (3, 1.05), (3, 1.15)] {
+            let (quality, again_s) = pace.quality(0, revision, now_s);
+            assert_eq!(quality, Quality::Draft);
+            assert!(again_s.unwrap() <= REST_S);
+            pace.note(0, quality, 0.03);
+            assert!(pace.has_drafts(|view| view == 0) && !pace.has_drafts(|view| view == 1));
+        }
+        assert_eq!(pace.quality(0, 3, 1.3), (Quality::Full, None));
+        pace.note(0, Quality::Full, 0.2);
+        assert!(!pace.has_drafts(|_| true));
+        assert_eq!(pace.quality(0, 3, 1.31).0, Quality::Full);
+    }
+
+    /// The next scene may be a small one.
+    #[test]
+    fn what_became_quick_is_drawn_in_full_again() {
+        let mut pace = Pace::default();
+        pace.note(0, Quality::Full, 0.2);
+        assert_eq!(pace.quality(0, 1, 1.0).0, Quality::Draft);
+        assert_eq!(pace.quality(0, 1, 1.2).0, Quality::Full);
+        pace.note(0, Quality::Full, 0.001);
+        assert_eq!(pace.quality(0, 2, 1.3).0, Quality::Full);
+    }
+}
