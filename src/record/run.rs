@@ -321,12 +321,13 @@ impl Run {
     pub(super) fn edit(&mut self, mut edits: Vec<SimEdit>) {
         let mut refusal = None;
         let at_end = self.is_live();
-        edits.retain(|edit| match self.simulation.apply(edit) {
-            Ok(()) => true,
-            Err(refused) => {
+        let mut outcomes = self.simulation.apply_all(&edits).into_iter();
+        edits.retain(|_| match outcomes.next() {
+            Some(Err(refused)) => {
                 refusal = Some(refused.to_string().into());
                 false
             }
+            _ => true,
         });
         self.refused = refusal.or(self.refused.take());
         self.message = None;

@@ -126,12 +126,10 @@ impl Run {
         {
             let (time, edits) = (due.at.time, due.edits.clone());
             self.applied += 1;
-            for edit in &edits {
-                // It was accepted in this very state before: a refusal means that the run is no longer the same.
-                if let Err(refused) = self.simulation.apply(edit) {
-                    let text = format!("the edit made at {time} s was refused when run again: {refused}");
-                    self.message = Some(text.into());
-                }
+            // They were accepted in this very state before: a refusal means that the run is no longer the same.
+            for refused in self.simulation.apply_all(&edits).into_iter().filter_map(Result::err) {
+                let text = format!("the edit made at {time} s was refused when run again: {refused}");
+                self.message = Some(text.into());
             }
         }
     }

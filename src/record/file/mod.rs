@@ -72,6 +72,9 @@ pub struct Steps {
 pub struct EditsAt {
     pub at: Moment,
     pub edits: Vec<SimEdit>,
+    /// Whether bodies went on anew once, after all of them; files of older programs tell of runs in which they did after each.
+    #[serde(default)]
+    pub at_once: bool,
 }
 
 /// A moment with the hash of the simulation there.
