@@ -176,7 +176,7 @@ impl Run {
         self.simulation.begin(until);
         let progress = self.simulation.work(PREDICTIONS);
         self.reached(&progress);
-        match progress {
+        let slice = match progress {
             Ok(Progress::Event(event)) => {
                 self.note(&event);
                 Slice::Event
@@ -187,14 +187,17 @@ impl Run {
                 self.grid.close();
                 self.recording.end_grid = self.grid;
                 self.recording.note_tick(&self.simulation);
-                self.forget_unreachable();
                 Slice::Done
             }
             Err(fault) => {
                 self.stop_at(&fault);
                 Slice::Pause
             }
+        };
+        if self.recording.stay_within_budget() {
+            self.forget_unreachable();
         }
+        slice
     }
 
     /// The simulation has gone on: so far is known now, and shown.
@@ -283,6 +286,10 @@ impl Run {
     pub(super) fn set_budget(&mut self, bytes: usize) {
         self.recording.set_budget(bytes);
         self.forget_unreachable();
+        let from = self.recording.from();
+        if !from.is_not_after(self.cursor) {
+            self.show(from, self.grid_at(from));
+        }
     }
 
     /// What was replaced continues from a moment: once that is dropped to stay within the budget, it continues nothing.

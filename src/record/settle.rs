@@ -83,7 +83,7 @@ impl Run {
 
     /// End of the recorded Δt that begins or lies at a time.
     fn step_end(&self, time: f64) -> f64 {
-        let next = self.recording.ticks.around(time).1.map(|tick| tick.at.time);
+        let next = self.recording.ticks.end_after(time);
         next.unwrap_or(self.recording.end.time.max(self.grid.open.map_or(time, |(_, end)| end)))
     }
 

@@ -79,7 +79,9 @@ impl Task {
                 match run.slice(*dt, Stop::AT_EVENTS, budget) {
                     Slice::Event if is_reached(run, *of) => *self = Self::Idle,
                     Slice::Done if *empty >= MOST_STEPS_TO_EVENT => {
-                        run.show(moment, grid);
+                        if run.recording.from().is_not_after(moment) {
+                            run.show(moment, grid);
+                        }
                         let text = format!("no event within {MOST_STEPS_TO_EVENT} Δt after this");
                         run.message = Some(text.into());
                         *self = Self::Idle;
