@@ -124,11 +124,11 @@ impl RunRecorder {
         }
     }
 
-    /// Model seconds that playing has given up since the last call.
-    pub(super) fn take_lost(&mut self) -> f64 {
+    /// Model seconds that playing has gone through, and has given up, since the last call.
+    pub(super) fn take_pace(&mut self) -> (f64, f64) {
         match &mut self.task {
-            Task::Play(play) => play.take_lost(),
-            _ => 0.0,
+            Task::Play(play) => play.take_pace(),
+            _ => (0.0, 0.0),
         }
     }
 
