@@ -3,9 +3,10 @@
 
 use std::sync::Arc;
 
+use super::cost::Cost;
 use super::grid::StepGrid;
 use super::keyframes::{Keyframe, Keyframes};
-use super::ledger::{EventRow, Ledger, Names};
+use super::ledger::{Ledger, Names, Tail};
 use super::log::{Log, Noted, Then};
 use super::moment::Moment;
 use super::ticks::{Tick, Ticks};
@@ -55,7 +56,7 @@ pub(super) struct Future {
     end: Moment,
     end_grid: StepGrid,
     pieces: Vec<Noted>,
-    rows: Vec<Arc<EventRow>>,
+    rows: Vec<Tail>,
     names: Arc<Names>,
     ticks: Vec<Tick>,
     keyframes: Vec<Keyframe>,
@@ -99,8 +100,8 @@ impl Recording {
         simulation.take_motion(|begun| self.log.note(begun));
     }
 
-    pub(super) fn note_event(&mut self, event: &Event) {
-        self.ledger.note(event);
+    pub(super) fn note_event(&mut self, event: &Event, cost: Cost) {
+        self.ledger.note(event, cost);
     }
 
     /// Notes the end of a Δt, with a keyframe now and then.

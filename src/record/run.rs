@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::cost::Cost;
 use super::drift::Drift;
 use super::grid::StepGrid;
 use super::ledger::Names;
@@ -44,6 +45,8 @@ pub(super) struct Run {
     fault: Option<Stopped>,
     /// Whether the simulation has stopped where it was between two events.
     is_between: bool,
+    /// What was done since the last event at the end of what is known.
+    spent: Cost,
 }
 
 /// A fault, and the moment that it allows nothing after.
@@ -107,6 +110,7 @@ impl Run {
             message: None,
             fault: None,
             is_between: false,
+            spent: Cost::default(),
         }
     }
 
@@ -174,8 +178,7 @@ impl Run {
         // A method that steps by Δt must know its end before it is asked to stop inside it.
         self.simulation.begin(end);
         self.simulation.begin(until);
-        let progress = self.simulation.work(PREDICTIONS);
-        self.reached(&progress);
+        let progress = self.go_on();
         let slice = match progress {
             Ok(Progress::Event(event)) => {
                 self.note(&event);
@@ -200,13 +203,17 @@ impl Run {
         slice
     }
 
-    /// The simulation has gone on: so far is known now, and shown.
-    fn reached(&mut self, progress: &Result<Progress, Fault>) {
-        self.arrive(progress);
+    /// A portion of work of the simulation: so far is known then, and shown.
+    fn go_on(&mut self) -> Result<Progress, Fault> {
+        let before = self.simulation.counters();
+        let progress = self.simulation.work(PREDICTIONS);
+        self.spent = self.spent.and(Cost::between(&before, &self.simulation.counters()));
+        self.arrive(&progress);
         self.recording.take_motion(&mut self.simulation);
         (self.recording.end, self.recording.end_grid) = (self.at, self.grid);
         self.cursor = self.at;
         self.is_between = matches!(progress, Ok(Progress::Working));
+        progress
     }
 
     /// Where the simulation stands after some work.
@@ -225,9 +232,7 @@ impl Run {
         while std::mem::take(&mut self.is_between) && self.is_live() && left > 0 {
             left -= 1;
             self.simulation.begin(self.at.time);
-            let progress = self.simulation.work(PREDICTIONS);
-            self.reached(&progress);
-            match progress {
+            match self.go_on() {
                 Ok(Progress::Event(event)) => self.note(&event),
                 Ok(Progress::Working | Progress::Done) => {}
                 Err(fault) => self.stop_at(&fault),
@@ -272,7 +277,7 @@ impl Run {
         if lost > 0 {
             self.message = Some(format!("{lost} edit(s) made later no longer apply").into());
         }
-        self.fault = None;
+        (self.fault, self.spent) = (None, Cost::default());
         let drift = self.drift.clone();
         self.drift.drop_after(self.cursor.event, &self.simulation);
         self.dropped = Some(Replaced { future, drift });
@@ -305,7 +310,7 @@ impl Run {
             return;
         };
         let moment = future.from;
-        self.drift = drift;
+        (self.drift, self.spent) = (drift, Cost::default());
         self.recording.put_back(future);
         self.show(moment, self.grid_at(moment));
         self.fault = None;
@@ -314,7 +319,7 @@ impl Run {
 
     /// Enters an event into the recording.
     fn note(&mut self, event: &Event) {
-        self.recording.note_event(event);
+        self.recording.note_event(event, std::mem::take(&mut self.spent));
         self.drift.note(&self.simulation, event);
     }
 
