@@ -22,12 +22,4 @@ impl Cost {
             dropped: more(|counters| counters.stale_events),
         }
     }
-
-    /// Both together.
-    pub(super) fn and(self, more: Self) -> Self {
-        Self {
-            searches: self.searches.saturating_add(more.searches),
-            dropped: self.dropped.saturating_add(more.dropped),
-        }
-    }
 }

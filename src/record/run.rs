@@ -10,7 +10,7 @@ use super::moment::Moment;
 use super::recording::{Future, Recording};
 use super::ticks::Tick;
 use crate::scene::Scene;
-use crate::sim::{Event, Fault, Progress, SimEdit, Simulation};
+use crate::sim::{Counters, Event, Fault, Progress, SimEdit, Simulation};
 
 /// Predictions carried out between two looks at the budget: a Δt may hold millions that are no events.
 pub(super) const PREDICTIONS: u32 = 16;
@@ -45,8 +45,8 @@ pub(super) struct Run {
     fault: Option<Stopped>,
     /// Whether the simulation has stopped where it was between two events.
     is_between: bool,
-    /// What was done since the last event at the end of what is known.
-    spent: Cost,
+    /// What the simulation counted at the last event that is known.
+    counted: Counters,
 }
 
 /// A fault, and the moment that it allows nothing after.
@@ -60,8 +60,9 @@ pub(super) struct Stopped {
 #[derive(Debug)]
 struct Replaced {
     future: Future,
-    /// How the books were off at the end of it.
+    /// How the books were off at the end of it, and what was counted at its last event.
     drift: Drift,
+    counted: Counters,
 }
 
 /// Where to stop inside a Δt.
@@ -110,7 +111,7 @@ impl Run {
             message: None,
             fault: None,
             is_between: false,
-            spent: Cost::default(),
+            counted: Counters::default(),
         }
     }
 
@@ -178,7 +179,8 @@ impl Run {
         // A method that steps by Δt must know its end before it is asked to stop inside it.
         self.simulation.begin(end);
         self.simulation.begin(until);
-        let progress = self.go_on();
+        let progress = self.simulation.work(PREDICTIONS);
+        self.reached(&progress);
         let slice = match progress {
             Ok(Progress::Event(event)) => {
                 self.note(&event);
@@ -203,17 +205,13 @@ impl Run {
         slice
     }
 
-    /// A portion of work of the simulation: so far is known then, and shown.
-    fn go_on(&mut self) -> Result<Progress, Fault> {
-        let before = self.simulation.counters();
-        let progress = self.simulation.work(PREDICTIONS);
-        self.spent = self.spent.and(Cost::between(&before, &self.simulation.counters()));
-        self.arrive(&progress);
+    /// The simulation has gone on: so far is known now, and shown.
+    fn reached(&mut self, progress: &Result<Progress, Fault>) {
+        self.arrive(progress);
         self.recording.take_motion(&mut self.simulation);
         (self.recording.end, self.recording.end_grid) = (self.at, self.grid);
         self.cursor = self.at;
         self.is_between = matches!(progress, Ok(Progress::Working));
-        progress
     }
 
     /// Where the simulation stands after some work.
@@ -232,7 +230,9 @@ impl Run {
         while std::mem::take(&mut self.is_between) && self.is_live() && left > 0 {
             left -= 1;
             self.simulation.begin(self.at.time);
-            match self.go_on() {
+            let progress = self.simulation.work(PREDICTIONS);
+            self.reached(&progress);
+            match progress {
                 Ok(Progress::Event(event)) => self.note(&event),
                 Ok(Progress::Working | Progress::Done) => {}
                 Err(fault) => self.stop_at(&fault),
@@ -277,10 +277,11 @@ impl Run {
         if lost > 0 {
             self.message = Some(format!("{lost} edit(s) made later no longer apply").into());
         }
-        (self.fault, self.spent) = (None, Cost::default());
+        self.fault = None;
         let drift = self.drift.clone();
         self.drift.drop_after(self.cursor.event, &self.simulation);
-        self.dropped = Some(Replaced { future, drift });
+        let counted = std::mem::replace(&mut self.counted, self.simulation.counters());
+        self.dropped = Some(Replaced { future, drift, counted });
     }
 
     /// Whether an edit in the past has replaced something that can be brought back.
@@ -305,12 +306,12 @@ impl Run {
 
     /// Takes the last edit in the past back: what it replaced is the future again.
     pub(super) fn bring_back(&mut self) {
-        let Some(Replaced { future, drift }) = self.dropped.take() else {
+        let Some(Replaced { future, drift, counted }) = self.dropped.take() else {
             self.message = Some("no edit in the past has replaced anything".into());
             return;
         };
         let moment = future.from;
-        (self.drift, self.spent) = (drift, Cost::default());
+        (self.drift, self.counted) = (drift, counted);
         self.recording.put_back(future);
         self.show(moment, self.grid_at(moment));
         self.fault = None;
@@ -319,7 +320,9 @@ impl Run {
 
     /// Enters an event into the recording.
     fn note(&mut self, event: &Event) {
-        self.recording.note_event(event, std::mem::take(&mut self.spent));
+        let counters = self.simulation.counters();
+        self.recording.note_event(event, Cost::between(&self.counted, &counters));
+        self.counted = counters;
         self.drift.note(&self.simulation, event);
     }
 
@@ -332,7 +335,7 @@ impl Run {
     /// for later is another future.
     pub(super) fn edit(&mut self, mut edits: Vec<SimEdit>) {
         let mut refusal = None;
-        let at_end = self.is_live();
+        let (at_end, counted) = (self.is_live(), self.simulation.counters());
         let mut outcomes = self.simulation.apply_all(&edits).into_iter();
         edits.retain(|_| match outcomes.next() {
             Some(Err(refused)) => {
@@ -349,6 +352,7 @@ impl Run {
         self.dropped = None;
         if !at_end {
             self.drop_future();
+            self.counted = counted;
         }
         self.recording.take_motion(&mut self.simulation);
         self.recording.end_grid = self.grid;
