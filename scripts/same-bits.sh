@@ -22,6 +22,7 @@ trap 'rm -rf "$work"' EXIT
 # Everything a run says, into $work/NAME.*.
 record() {
   local program=$1 scene=$2 method=$3 name=$4 time=$5 rc=0
+  rm -f "$work/$name".*
   timeout "$time" "$program" run "$scene" --dt 1/60 --until 4 --every 60 --method "$method" \
     --events "$work/$name.events" --states "$work/$name.states" --json \
     >"$work/$name.summary" 2>"$work/$name.messages" || rc=$?

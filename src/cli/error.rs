@@ -1,8 +1,8 @@
 //! How a verb can end badly, and the exit code of each way.
 
 use std::fmt::Display;
-use std::io::Write as _;
-use std::path::Path;
+use std::io::{ErrorKind, Write as _};
+use std::path::{MAIN_SEPARATOR, Path};
 
 use crate::record::Exceeded;
 use crate::scene::{escaped, shown_path};
@@ -74,7 +74,18 @@ impl CliError {
 
     /// An output file that cannot be written.
     pub(super) fn unwritable(path: &Path, error: &std::io::Error) -> Self {
-        Self::Usage(format!("cannot write {}: {error}", shown_path(path)))
+        let name = shown_path(path);
+        let is_folder = path.to_string_lossy().ends_with(['/', MAIN_SEPARATOR]);
+        let folder = if is_folder { Some(path) } else { path.parent() };
+        let folder = folder.filter(|folder| !folder.as_os_str().is_empty() && !folder.exists());
+        Self::Usage(match folder.map(shown_path) {
+            Some(folder) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => {
+                format!(
+                    "cannot write {name}: the folder {folder} does not exist; make it first, with mkdir {folder}"
+                )
+            }
+            _ => format!("cannot write {name}: {error}"),
+        })
     }
 
     /// The same, of standard output or what an option prints there.

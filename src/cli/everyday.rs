@@ -65,6 +65,10 @@ pub struct EverydayArgs {
     #[arg(long, value_name = "FOLDER", conflicts_with_all = ["markdown", "json"])]
     write: Option<PathBuf>,
 
+    /// Let --write replace files
+    #[arg(long, requires = "write")]
+    force: bool,
+
     /// Rewrite the table between its two marks in this Markdown file
     #[arg(long, value_name = "FILE")]
     markdown: Option<PathBuf>,
@@ -81,7 +85,7 @@ const END: &str = "<!-- everyday scenes: end -->";
 pub(super) fn everyday(args: &EverydayArgs) -> Result<(), CliError> {
     let setups = setups(args);
     if let Some(folder) = &args.write {
-        return scenes::write_all(&setups, folder);
+        return scenes::write_all(&setups, folder, args.force);
     }
     // Found out before hours of work rather than after.
     let marked = args.markdown.as_deref().map(|path| Marked::read(path, BEGIN, END)).transpose()?;

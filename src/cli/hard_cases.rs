@@ -2,6 +2,7 @@
 
 use std::io::IsTerminal as _;
 use std::path::PathBuf;
+use std::time::{Duration, Instant};
 
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -46,6 +47,7 @@ pub(super) fn hard_cases(args: &HardCasesArgs) -> Result<(), CliError> {
     let chosen = chosen(args)?;
     // Found out before minutes of work rather than after.
     let marked = args.markdown.as_deref().map(|path| Marked::read(path, BEGIN, END)).transpose()?;
+    let started = Instant::now();
     let bar = bar(chosen.len() * STEPS.len());
     let mut measured = Vec::new();
     for case in chosen {
@@ -65,6 +67,9 @@ pub(super) fn hard_cases(args: &HardCasesArgs) -> Result<(), CliError> {
         let mut line = serde_json::to_vec(&Report::of(&measured)).map_err(|error| failed(&error.into()))?;
         line.push(b'\n');
         output::print(&line)?;
+    } else {
+        // Beside the figures, which are the same every time.
+        super::say(closing(&measured, started.elapsed()));
     }
     if let Some(marked) = &marked {
         marked.write(&markdown(&measured))?;
@@ -77,6 +82,16 @@ pub(super) fn hard_cases(args: &HardCasesArgs) -> Result<(), CliError> {
         1 => Err(CliError::Scene("1 figure is out of its limit".into())),
         count => Err(CliError::Scene(format!("{count} figures are out of their limits"))),
     }
+}
+
+/// How many cases there were, and in how many all figures held.
+fn closing(measured: &[(&'static Case, Vec<Outcome>)], elapsed: Duration) -> String {
+    let holds = |(case, outcomes): &&(&'static Case, Vec<Outcome>)| {
+        figures(case, outcomes).iter().all(|figure| figure.held)
+    };
+    let (count, held) = (measured.len(), measured.iter().filter(holds).count());
+    let cases = if count == 1 { "case" } else { "cases" };
+    format!("{count} {cases}, {held} held, {:.1} s", elapsed.as_secs_f64())
 }
 
 fn chosen(args: &HardCasesArgs) -> Result<Vec<&'static Case>, CliError> {

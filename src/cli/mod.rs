@@ -18,10 +18,12 @@ mod record;
 #[cfg(feature = "render")]
 mod render;
 mod replay;
+mod rows;
 mod run;
 mod samples;
 mod schema;
 mod study;
+mod table;
 
 use std::ffi::OsString;
 use std::io::{ErrorKind, Write as _};

@@ -68,9 +68,18 @@ pub fn overwrites(output: &Path, scene: &Path) -> bool {
     Place::of_output(output).is_same(&Place::of_scene(scene))
 }
 
-/// Whether a file is there that may be somebody's work; rows are not. What holds no bytes, such as a fresh temporary
-/// file or a device, is no loss.
-pub fn holds_something(path: &Path) -> bool {
+/// Refuses, unless `force`, a place given by an option that holds something.
+pub fn refuse_taken(option: &str, output: &Path, force: bool) -> Result<(), CliError> {
+    if force || !holds_something(output) {
+        return Ok(());
+    }
+    let name = shown_path(output);
+    Err(CliError::Usage(format!("{option} would overwrite {name}: give another name, or --force")))
+}
+
+/// Whether a file is there that may be somebody's work. What holds no bytes, such as a fresh temporary file or a device,
+/// is no loss.
+fn holds_something(path: &Path) -> bool {
     !is_stdout(path) && path.metadata().is_ok_and(|metadata| metadata.is_file() && metadata.len() > 0)
 }
 
@@ -107,11 +116,7 @@ pub fn refuse_bad(
     if overwrites(output, input) {
         return Err(CliError::Usage(format!("{option} would overwrite {what} {name}")));
     }
-    if !force && holds_something(output) {
-        return Err(CliError::Usage(format!(
-            "{option} would overwrite {name}: give another name, or --force"
-        )));
-    }
+    refuse_taken(option, output, force)?;
     if is_stdout(output) {
         return Ok(());
     }

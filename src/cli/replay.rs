@@ -7,14 +7,13 @@ use std::sync::Arc;
 use clap::Args;
 
 use super::limits::LimitArgs;
-use super::output::{LineSink, overwrites};
-use super::{CliError, input, number};
+use super::table::{Happened, RowArgs, Wanted};
+use super::{CliError, input, number, output};
 use crate::record::{
     Compared, Frame, InlineRunner, MOST_BYTES, RecordingFile, Rerun, RerunError, RunCommand, RunState,
     Runner as _,
 };
-use crate::scene::shown_path;
-use crate::sim::Fault;
+use crate::sim::{Fault, SimEdit};
 
 /// Run a recording again
 ///
@@ -41,9 +40,16 @@ pub struct ReplayArgs {
     #[arg(long, value_name = "S", value_parser = number::seconds, allow_negative_numbers = true)]
     to: Option<f64>,
 
-    /// Write the events up to there, one JSON object per line; `-` is standard output
+    /// Write the events up to there as `run --events` does, as JSON Lines or CSV; `-` is standard output
     #[arg(long, value_name = "FILE")]
     events: Option<PathBuf>,
+
+    /// Let --events replace a file
+    #[arg(long)]
+    force: bool,
+
+    #[command(flatten)]
+    rows: RowArgs,
 
     #[command(flatten)]
     limits: LimitArgs,
@@ -51,14 +57,13 @@ pub struct ReplayArgs {
 
 pub(super) fn replay(args: &ReplayArgs) -> Result<(), CliError> {
     let name = input::display_name(&args.file);
-    if args.events.as_deref().is_some_and(|events| overwrites(events, &args.file)) {
-        return Err(CliError::Usage(format!(
-            "--events would overwrite the recording {}",
-            shown_path(&args.file)
-        )));
+    if let Some(events) = &args.events {
+        output::refuse_bad("--events", events, ("the recording", &args.file), args.force)?;
     }
+    args.rows.check(None, args.events.as_deref())?;
     let of = |error: RerunError| stopped(&name, error);
     let file = RecordingFile::read(&read(&args.file)?).map_err(|error| of(error.into()))?;
+    let wanted = wanted(args, &file)?;
     let _watchdog = args.limits.watchdog();
     let mut rerun = Rerun::of(file, args.limits.limits(), &mut |_| true).map_err(of)?;
     if args.verify {
@@ -74,7 +79,19 @@ pub(super) fn replay(args: &ReplayArgs) -> Result<(), CliError> {
         frame.event_count,
         runner.hash().unwrap_or_default()
     ));
-    write_events(args, &frame)
+    write_events(args, rerun.file(), &frame, &wanted)
+}
+
+/// The rows that are wanted, with the names of all bodies that are or come into the run.
+fn wanted(args: &ReplayArgs, file: &RecordingFile) -> Result<Wanted, CliError> {
+    let scene = file.document().and_then(|document| RecordingFile::scene(&document));
+    let scene = scene.map_err(|error| stopped(&input::display_name(&args.file), error.into()))?;
+    let mut wanted = args.rows.wanted(&scene)?;
+    wanted.name(file.edits.iter().flat_map(|edits| &edits.edits).filter_map(|edit| match edit {
+        SimEdit::AddBody(body) => Some(&**body),
+        _ => None,
+    }));
+    Ok(wanted)
 }
 
 fn say_compared(name: &str, compared: Compared, build: &str) {
@@ -135,24 +152,24 @@ fn go_to(runner: &mut InlineRunner, args: &ReplayArgs) -> Result<Arc<Frame>, Cli
 }
 
 /// The events up to what is shown, as `run --events` writes them.
-fn write_events(args: &ReplayArgs, frame: &Frame) -> Result<(), CliError> {
+fn write_events(
+    args: &ReplayArgs,
+    file: &RecordingFile,
+    frame: &Frame,
+    wanted: &Wanted,
+) -> Result<(), CliError> {
     let Some(path) = &args.events else { return Ok(()) };
-    let mut lines = LineSink::create(path)?;
+    let mut table = args.rows.events(path)?;
     for row in frame.ledger.iter_from(0).take_while(|row| row.event.seq <= frame.event_count) {
         let event = &row.event;
-        lines.row(&serde_json::json!({
-            "seq": event.seq,
-            "t": event.time,
-            "kind": event.kind.name(),
-            "a": &*row.a_label,
-            "b": row.b_key.map(|_| &*row.b_label),
-            "point": event.point.to_array(),
-            "normal": event.normal.to_array(),
-            "impulse": event.impulse,
-            "vn_before": event.vn_before,
-            "vn_after": event.vn_after,
-            "group": event.group,
-        }))?;
+        let happened = Happened {
+            event,
+            a: &row.a_label,
+            b: row.b_key.map(|_| &*row.b_label),
+            dt_index: file.step_of(event.time),
+            cost: frame.ledger.cost(event.seq).unwrap_or_default(),
+        };
+        table.event(&happened, wanted)?;
     }
-    lines.flush()
+    table.sink.flush()
 }

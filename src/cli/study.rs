@@ -10,7 +10,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::limits::LimitArgs;
 use super::output::{self, is_stdout};
 use super::{CliError, input, interrupt, method, number};
-use crate::scene::{check_writable, escaped, shown_path, write_atomically};
+use crate::scene::escaped;
 use crate::sim::Method;
 use crate::study::{
     self, AXES, Control, KNOBS, Stop, StudyError, StudyReport as Report, StudySettings as Settings,
@@ -91,6 +91,10 @@ pub struct StudyArgs {
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
 
+    /// Let --csv and --svg replace files
+    #[arg(long)]
+    force: bool,
+
     /// Print the whole report as one JSON object to standard output
     #[arg(long)]
     json: bool,
@@ -113,9 +117,6 @@ pub(super) fn study(args: &StudyArgs) -> Result<(), CliError> {
         let errors = examined.error_count();
         return Err(CliError::Scene(format!("{name} cannot be studied: {errors} error(s)")));
     };
-    for (_, path) in args.outputs().filter(|(_, path)| !is_stdout(path)) {
-        check_writable(path).map_err(|error| CliError::unwritable(path, &error))?;
-    }
 
     let bar = bar();
     let mut show = |progress: &study::StudyProgress| {
@@ -176,11 +177,11 @@ fn bar() -> ProgressBar {
 
 fn write(args: &StudyArgs, report: &Report) -> Result<(), CliError> {
     if let Some(path) = &args.csv {
-        write_text(path, &study::csv(report))?;
+        output::write(path, study::csv(report).as_bytes())?;
     }
     if let Some(path) = &args.svg {
         let picture = study::svg(report).map_err(|error| CliError::Usage(error.to_string()))?;
-        write_text(path, &picture)?;
+        output::write(path, picture.as_bytes())?;
     }
     if args.json {
         let text = serde_json::to_string(report);
@@ -191,13 +192,6 @@ fn write(args: &StudyArgs, report: &Report) -> Result<(), CliError> {
     } else {
         output::print(study::table(report).as_bytes())
     }
-}
-
-fn write_text(path: &Path, text: &str) -> Result<(), CliError> {
-    if is_stdout(path) {
-        return output::print(text.as_bytes());
-    }
-    write_atomically(path, text.as_bytes()).map_err(|error| CliError::unwritable(path, &error))
 }
 
 impl StudyArgs {
@@ -232,12 +226,9 @@ fn refuse_clashing_outputs(args: &StudyArgs) -> Result<(), CliError> {
     let json = args.json.then_some(("--json", Path::new("-")));
     let all: Vec<_> = json.into_iter().chain(args.outputs()).collect();
     output::refuse_shared(&all)?;
-    match args.outputs().find(|(_, path)| output::overwrites(path, &args.scene)) {
-        Some((option, path)) => {
-            Err(CliError::Usage(format!("{option} would overwrite the scene {}", shown_path(path))))
-        }
-        None => Ok(()),
-    }
+    args.outputs().try_for_each(|(option, path)| {
+        output::refuse_bad(option, path, ("the scene", &args.scene), args.force)
+    })
 }
 
 const EXAMPLES: &str = "Examples:\n  \

@@ -23,7 +23,10 @@ impl Session {
                 let forward = command == TravelCommand::NextBookmark;
                 self.bookmark_beside(forward).into_iter().for_each(|index| self.go_to_bookmark(index));
             }
-            TravelCommand::BringBack => self.go_back(RunCommand::BringBack),
+            TravelCommand::BringBack => {
+                self.settle();
+                self.run.bring_back(self.doc.history.document());
+            }
         }
         Outcome::Done
     }

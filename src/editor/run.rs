@@ -7,7 +7,7 @@ use super::live::{Waiting, live_change, waits};
 use super::talk::Talk;
 use super::travel::Way;
 use super::{Notice, Playback};
-use crate::record::{EventRow, Frame, PathSpan, RunCommand, RunState, Runner, Written};
+use crate::record::{EventRow, Frame, PathSpan, Recorded, RunCommand, RunState, Runner, Written};
 use crate::scene::{Diagnostic, Document, NodeKey, Scene, Touched, shown_path};
 use crate::sim::Method;
 
@@ -32,6 +32,8 @@ pub(super) struct Run {
     pub shown_event: Option<Arc<EventRow>>,
     /// The scene that the runner runs; `None` when it has none.
     pub running: Option<Running>,
+    /// What it ran before its start was edited, while that can be brought back.
+    replaced: Option<Running>,
     /// What edits touched that have not reached the runner yet.
     pub pending: Touched,
     /// The document state that was seen last while edits are pending, and since when.
@@ -62,6 +64,7 @@ impl Run {
             playback,
             shown_event: None,
             running: None,
+            replaced: None,
             pending: Touched::default(),
             settling: None,
             last_poll: None,
@@ -163,7 +166,7 @@ impl Run {
             (Some(running), Some(scene)) if self.playback.is_at_start() => {
                 let other = running.edited || running.waiting.any();
                 if other || waits(&running.scene, &scene, &touched).any() {
-                    self.load(document, scene);
+                    self.load_edited(document, scene);
                 } else {
                     (running.scene, running.document) = (scene, document.clone());
                 }
@@ -175,6 +178,7 @@ impl Run {
                 running.waiting = change.waiting;
                 running.scene = change.scene;
                 if !change.edits.is_empty() {
+                    self.replaced = None;
                     self.send(RunCommand::Edit(change.edits));
                 }
                 if speed_changed {
@@ -185,15 +189,51 @@ impl Run {
     }
 
     fn load(&mut self, document: &Document, scene: Arc<Scene>) {
+        self.replaced = None;
         let command = self.send(RunCommand::Load(scene.clone()));
+        self.begin(command, document, scene);
+    }
+
+    /// Loads a scene whose start was edited. What was recorded from there can be brought back.
+    fn load_edited(&mut self, document: &Document, scene: Arc<Scene>) {
+        let keeps_run = self.frame.recorded.to > 0.0;
+        if keeps_run {
+            self.replaced = self.running.take();
+        }
+        if self.replaced.is_none() {
+            return self.load(document, scene);
+        }
+        let command = self.send(RunCommand::LoadEdited { scene: scene.clone(), keeps_run });
+        self.begin(command, document, scene);
+    }
+
+    fn begin(&mut self, command: u64, document: &Document, scene: Arc<Scene>) {
         self.running =
             Some(Running { scene, document: document.clone(), edited: false, waiting: Waiting::default() });
+        let can_bring_back = self.replaced.is_some();
+        let recorded = Arc::new(Recorded { can_bring_back, ..Recorded::default() });
+        self.begin_anew(command, Frame { recorded, ..self.frame_at_start() });
+    }
+
+    /// Takes the last edit in the past out of the run, or that of its start.
+    pub fn bring_back(&mut self, document: &Document) {
+        let Some(mut before) = self.replaced.take() else { return self.go_back(RunCommand::BringBack) };
+        if let Some(scene) = document.scene() {
+            let keys = |scene: &Scene| {
+                let bodies = scene.bodies.iter().map(|body| body.key);
+                bodies.chain(scene.forces.iter().map(|force| force.key)).collect::<Vec<_>>()
+            };
+            let keys = [keys(&before.scene), keys(scene)].concat().into_iter().collect();
+            before.waiting = waits(&before.scene, scene, &Touched { keys, ..Touched::default() });
+        }
+        self.running = Some(before);
+        let command = self.send(RunCommand::BringBack);
         self.begin_anew(command, self.frame_at_start());
     }
 
     fn unload(&mut self) {
         let command = self.send(RunCommand::Unload);
-        self.running = None;
+        (self.running, self.replaced) = (None, None);
         self.begin_anew(command, Frame::default());
     }
 
@@ -240,6 +280,7 @@ impl Run {
                 self.load(document, scene);
             }
         } else {
+            self.replaced = None;
             let command = self.send(RunCommand::Reset);
             self.begin_anew(command, self.frame_at_start());
         }

@@ -10,13 +10,19 @@ use super::ways::PathSpan;
 use crate::scene::{NodeKey, Scene};
 use crate::sim::{Method, SimEdit};
 
-/// Commands are carried out in the order sent, between events. All but `Load`, `Reset`, `Method`, `Budget`, `Paths` and `Crossings` are
+/// Commands are carried out in the order sent, between events. All but `Load`, `LoadEdited`, `Reset`, `Method`, `Budget`, `Paths` and `Crossings` are
 /// refused (and ignored) while no simulation is loaded. What is recorded is gone through by looking it up; what is not, by
 /// simulating.
 #[derive(Clone, Debug)]
 pub enum RunCommand {
     /// Compiles a scene and goes to its start. Forgets the recording.
     Load(Arc<Scene>),
+    /// As `Load`, of the same scene edited at its start. With `keeps_run` the run until now can be brought back, until the next
+    /// edit of a run; without, what could be brought back still can.
+    LoadEdited {
+        scene: Arc<Scene>,
+        keeps_run: bool,
+    },
     /// Drops the simulation: the scene has errors.
     Unload,
     /// Back to the start of the loaded scene. Forgets the recording.

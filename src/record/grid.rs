@@ -27,6 +27,11 @@ impl StepGrid {
         (self.origin, self.dt)
     }
 
+    /// How many Δt have ended since they begin to be counted.
+    pub(super) fn number(&self) -> u64 {
+        self.ticks
+    }
+
     /// Start and end of the Δt being looked at; `None` before the first.
     pub(super) fn span(&self) -> Option<(f64, f64)> {
         let at = |ticks: u64| self.origin + ticks as f64 * self.dt;

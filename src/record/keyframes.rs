@@ -97,6 +97,15 @@ impl Keyframes {
         rest
     }
 
+    /// Drops those before the last one not after a moment before which nothing is shown any more, but the first of all.
+    pub(super) fn drop_before(&mut self, from: Moment) {
+        let last = self.list.iter().rposition(|key| key.at.is_not_after(from)).unwrap_or(0);
+        if last > 1 {
+            self.list.drain(1..last);
+            self.count_bytes();
+        }
+    }
+
     /// Drops those of an edit that is taken back.
     pub(super) fn drop_after_edits(&mut self, edits: usize) {
         self.list.retain(|key| key.edits <= edits);

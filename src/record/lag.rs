@@ -27,15 +27,16 @@ const LOOKED_AT: usize = 2000;
 /// What was measured between two looks.
 pub(super) struct Measured {
     pub(super) before: Counters,
-    /// Model seconds simulated and given up, and events reached.
+    /// Model seconds played and given up, and events reached.
     pub(super) gained: f64,
     pub(super) lost: f64,
     pub(super) events: f64,
 }
 
+/// What is only looked up costs no simulating that could be told of.
 pub(super) fn lag_of(run: &Run, measured: &Measured) -> Option<Lag> {
     let Measured { gained, lost, .. } = *measured;
-    let is_noted = lost > NOTED * (gained + lost);
+    let is_noted = lost > NOTED * (gained + lost) && run.simulation.counters() != measured.before;
     is_noted.then(|| Lag { share: gained / (gained + lost), cause: cause(run, measured) })
 }
 

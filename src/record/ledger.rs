@@ -3,6 +3,7 @@
 
 use std::sync::{Arc, OnceLock};
 
+use super::cost::Cost;
 use crate::scene::NodeKey;
 use crate::sim::{BodyRef, Event, EventKind, Simulation};
 
@@ -78,15 +79,20 @@ const BLOCK: usize = 512;
 #[derive(Clone, Debug, Default)]
 struct Block {
     events: Vec<Event>,
+    costs: Vec<Cost>,
     rows: OnceLock<Rows>,
     names: Arc<Names>,
 }
+
+/// A row that is taken away, with what it took.
+pub(super) type Tail = (Arc<EventRow>, Cost);
 
 type Rows = Box<[OnceLock<Arc<EventRow>>]>;
 
 impl Block {
     fn new(names: Arc<Names>) -> Self {
-        Self { events: Vec::with_capacity(BLOCK), rows: OnceLock::new(), names }
+        let (events, costs) = (Vec::with_capacity(BLOCK), Vec::with_capacity(BLOCK));
+        Self { events, costs, rows: OnceLock::new(), names }
     }
 
     fn rows(&self) -> &Rows {
@@ -107,6 +113,7 @@ impl Block {
 
     fn truncate(&mut self, len: usize) {
         self.events.truncate(len);
+        self.costs.truncate(len);
         if let Some(rows) = self.rows.get_mut() {
             rows.iter_mut().skip(len).for_each(|row| drop(row.take()));
         }
@@ -140,7 +147,7 @@ impl FromIterator<EventRow> for Ledger {
     /// Rows in the order of their numbers, without a gap.
     fn from_iter<I: IntoIterator<Item = EventRow>>(rows: I) -> Self {
         let mut ledger = Self::default();
-        rows.into_iter().for_each(|row| ledger.push(Arc::new(row)));
+        rows.into_iter().for_each(|row| ledger.push((Arc::new(row), Cost::default())));
         ledger
     }
 }
@@ -199,6 +206,12 @@ impl Ledger {
         self.block(index / BLOCK)?.events.get(index % BLOCK)
     }
 
+    /// What the event of this number took. It is no part of the event: it depends on the tiles.
+    pub fn cost(&self, number: u64) -> Option<Cost> {
+        let index = self.index_of(number)?;
+        self.block(index / BLOCK)?.costs.get(index % BLOCK).copied()
+    }
+
     /// The row of an event's number.
     pub fn get(&self, number: u64) -> Option<&Arc<EventRow>> {
         self.at(self.index_of(number)?)
@@ -236,8 +249,8 @@ impl Ledger {
     }
 
     /// Adds a row that is made already.
-    fn push(&mut self, row: Arc<EventRow>) {
-        self.note(&row.event);
+    fn push(&mut self, (row, cost): Tail) {
+        self.note(&row.event, cost);
         let place = self.open.events.len() - 1;
         if let Some(free) = self.open.rows().get(place) {
             // It is the first there: what was taken away has left none.
@@ -245,7 +258,7 @@ impl Ledger {
         }
     }
 
-    pub(super) fn note(&mut self, event: &Event) {
+    pub(super) fn note(&mut self, event: &Event, cost: Cost) {
         if self.len.is_multiple_of(BLOCK) {
             let full = std::mem::replace(&mut self.open, Block::new(self.names.clone()));
             if !full.events.is_empty() {
@@ -253,14 +266,16 @@ impl Ledger {
             }
         }
         self.open.events.push(*event);
+        self.open.costs.push(cost);
         self.len += 1;
     }
 
     /// Takes the rows after an event.
-    pub(super) fn split_off(&mut self, event: u64) -> Vec<Arc<EventRow>> {
+    pub(super) fn split_off(&mut self, event: u64) -> Vec<Tail> {
         let kept =
             usize::try_from((event + 1).saturating_sub(self.first())).unwrap_or(usize::MAX).min(self.len);
-        let rows: Vec<Arc<EventRow>> = self.iter_from(kept).cloned().collect();
+        let costs = |row: &Arc<EventRow>| self.cost(row.event.seq).unwrap_or_default();
+        let rows: Vec<Tail> = self.iter_from(kept).map(|row| (row.clone(), costs(row))).collect();
         if kept / BLOCK < self.blocks.len() {
             self.blocks.truncate(kept / BLOCK + 1);
             self.open = self.blocks.pop().map(Arc::unwrap_or_clone).unwrap_or_default();
@@ -273,7 +288,7 @@ impl Ledger {
         rows
     }
 
-    pub(super) fn append(&mut self, rows: Vec<Arc<EventRow>>) {
+    pub(super) fn append(&mut self, rows: Vec<Tail>) {
         for row in rows {
             self.push(row);
         }
@@ -291,7 +306,7 @@ impl Ledger {
     /// Bytes that the rows take once all of them are made.
     pub(super) fn bytes(&self) -> usize {
         let row = size_of::<EventRow>() + 2 * size_of::<usize>();
-        self.len * (size_of::<Event>() + size_of::<OnceLock<Arc<EventRow>>>() + row)
+        self.len * (size_of::<Event>() + size_of::<Cost>() + size_of::<OnceLock<Arc<EventRow>>>() + row)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Driving a simulation: commands in, published frames out, on this thread or on one of its own.
 
 mod command;
+mod cost;
 mod crossings;
 mod drift;
 mod file;
@@ -35,6 +36,7 @@ mod ways;
 use std::sync::Arc;
 
 pub use command::{Goal, Of, RunCommand};
+pub use cost::Cost;
 pub use file::{
     Checkpoint, EditsAt, MOST_BYTES, NamedMoment, RecordingError, RecordingFile, Steps, WriteRequest, Written,
 };
@@ -44,7 +46,7 @@ pub use ledger::{EventRow, Ledger, Past};
 pub use limits::{Exceeded, Limits, Watch, advance};
 pub use moment::Moment;
 pub use motion::RecordedMotion;
-pub use rows::{Column, EVENT_COLUMNS, EventLine, cells};
+pub use rows::{COST_COLUMNS, Column, EVENT_COLUMNS, EventLine, Who, cells};
 pub use thread::ThreadRunner;
 pub use verify::{Compared, Rerun, RerunError};
 pub use ways::{BodyPath, Crossing, ImpactBody, PathSpan};

@@ -2,6 +2,7 @@
 
 use super::command::Of;
 use super::grid::StepGrid;
+use super::ledger::EventRow;
 use super::moment::Moment;
 use super::run::Run;
 use super::ticks::Tick;
@@ -33,20 +34,30 @@ impl Run {
         let is_at_event = shown == Some(self.cursor.time) && self.grid.open.is_some();
         let last = self.cursor.event.saturating_sub(u64::from(is_at_event));
         let mut earlier = (ledger.first()..=last).rev().filter_map(|number| ledger.get(number));
-        match earlier.find(|row| of.holds(row)).map(|row| row.event.seq) {
+        match earlier.find(|row| of.holds(row) && self.is_kept(row)).map(|row| row.event.seq) {
             Some(number) => self.go_to_event(number),
             None => self.message = Some("there is no recorded event before this one".into()),
         }
     }
 
+    /// Whether what was at an event is known: the ledger, which drops many rows at once, has some that are older.
+    fn is_kept(&self, row: &EventRow) -> bool {
+        self.recording.from().is_not_after(Moment::right_after(row.event.seq, row.event.time))
+    }
+
     /// To a recorded event, with the Δt around it open.
     pub(super) fn go_to_event(&mut self, number: u64) {
-        let Some(time) = self.recording.ledger.get(number).map(|row| row.event.time) else {
-            self.message = Some(format!("event {number} is not recorded").into());
-            return;
-        };
-        let moment = Moment::right_after(number, time);
-        self.show(moment, self.grid_around_event(moment));
+        match self.recording.ledger.get(number) {
+            Some(row) if self.is_kept(row) => {
+                let moment = Moment::right_after(number, row.event.time);
+                self.show(moment, self.grid_around_event(moment));
+            }
+            Some(_) => {
+                let text = format!("event {number} is older than what is kept within the memory");
+                self.message = Some(text.into());
+            }
+            None => self.message = Some(format!("event {number} is not recorded").into()),
+        }
     }
 
     /// To a moment, if it is recorded.

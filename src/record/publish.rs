@@ -43,6 +43,9 @@ pub(super) fn frame_of(recorder: &mut RunRecorder, revision: u64, command: u64, 
         events_per_s: pace.events_per_s,
         real_speed: pace.real_speed,
         lag: pace.lag,
+        recorded: recorder.run.as_ref().map_or_else(Arc::default, |run| {
+            Arc::new(Recorded { can_bring_back: recorder.can_bring_back(), ..recorded(run) })
+        }),
         ..Frame::default()
     };
     let (span, crossed) = (recorder.paths, recorder.crossings.clone());
@@ -67,7 +70,6 @@ fn looked_up(base: Frame, run: &Run, span: Option<PathSpan>, crossed: &[NodeKey]
         events,
         events_truncated,
         ledger: run.recording.ledger.clone(),
-        recorded: Arc::new(recorded(run)),
         at_impact: Arc::new(at_impact(run)),
         paths: span.map_or_else(Arc::default, |span| Arc::new(paths(run, span))),
         crossings: Arc::new(crossings(run, crossed)),
@@ -109,7 +111,7 @@ fn recorded(run: &Run) -> Recorded {
         bytes: recording.bytes(),
         budget: recording.budget(),
         edits: recording.edits().iter().map(|edits| edits.at.time).collect(),
-        can_bring_back: run.can_bring_back(),
+        can_bring_back: false,
     }
 }
 

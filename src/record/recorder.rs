@@ -19,6 +19,8 @@ use crate::sim::{Method, SimEdit, Simulation};
 #[derive(Debug)]
 pub(super) struct RunRecorder {
     pub(super) run: Option<Run>,
+    /// The one that an edit of its start has replaced, until a run is edited.
+    replaced: Option<Box<Run>>,
     /// How simulations are stepped.
     pub(super) method: Method,
     /// Why the scene cannot be simulated, or geometric warnings of the start.
@@ -43,6 +45,7 @@ impl Default for RunRecorder {
     fn default() -> Self {
         Self {
             run: None,
+            replaced: None,
             method: Method::default(),
             problems: Arc::default(),
             task: Task::Idle,
@@ -61,10 +64,20 @@ impl RunRecorder {
     /// Takes a command. Those that end what is being done act at once; others wait for it.
     pub(super) fn command(&mut self, command: RunCommand) {
         match command {
-            RunCommand::Load(scene) => self.load(scene),
+            RunCommand::Load(scene) => {
+                self.replaced = None;
+                self.load(scene);
+            }
+            RunCommand::LoadEdited { scene, keeps_run } => {
+                if keeps_run {
+                    self.replaced = self.run.take().map(Box::new);
+                }
+                self.load(scene);
+            }
             RunCommand::Unload => {
                 self.forget_work();
                 (self.run, self.motion, self.problems) = (None, None, Arc::default());
+                self.replaced = None;
             }
             RunCommand::Reset => self.reset(),
             RunCommand::Method(method) if method != self.method => {
@@ -82,7 +95,7 @@ impl RunRecorder {
             RunCommand::Pause => self.pause(),
             RunCommand::Script(commands) if commands.is_empty() => {}
             // After commands that wait it is meant for where they lead to.
-            RunCommand::Edit(edits) if self.waiting.is_empty() => self.edits.extend(edits),
+            RunCommand::Edit(edits) if self.waiting.is_empty() => self.take_edits(edits),
             other => {
                 if matches!(self.task, Task::Play(_)) {
                     self.task = Task::Idle;
@@ -111,11 +124,11 @@ impl RunRecorder {
         }
     }
 
-    /// Model seconds that playing has given up since the last call.
-    pub(super) fn take_lost(&mut self) -> f64 {
+    /// Model seconds that playing has gone through, and has given up, since the last call.
+    pub(super) fn take_pace(&mut self) -> (f64, f64) {
         match &mut self.task {
-            Task::Play(play) => play.take_lost(),
-            _ => 0.0,
+            Task::Play(play) => play.take_pace(),
+            _ => (0.0, 0.0),
         }
     }
 
@@ -155,6 +168,25 @@ impl RunRecorder {
             }
         }
         true
+    }
+
+    fn take_edits(&mut self, edits: Vec<SimEdit>) {
+        self.edits.extend(edits);
+        self.replaced = None;
+    }
+
+    /// Whether an edit in the past, or of the start, has replaced something that can be brought back.
+    pub(super) fn can_bring_back(&self) -> bool {
+        self.replaced.is_some() || self.run.as_ref().is_some_and(Run::can_bring_back)
+    }
+
+    /// Takes an edit of the start back: the run before it is there again, where it was left.
+    fn bring_back_run(&mut self) {
+        let Some(mut run) = self.replaced.take() else { return };
+        self.problems = Arc::new(run.simulation.start_warnings().to_vec());
+        self.motion = None;
+        run.set_budget(self.budget);
+        self.run = Some(*run);
     }
 
     /// Makes the edits that wait, once the simulation is where what is shown is.
@@ -212,7 +244,8 @@ impl RunRecorder {
             RunCommand::EventBack { of } => run.event_back(of),
             RunCommand::GoTo { event } => run.go_to_event(event),
             RunCommand::Show(moment) => run.go_to(moment),
-            RunCommand::Edit(edits) => self.edits.extend(edits),
+            RunCommand::Edit(edits) => self.take_edits(edits),
+            RunCommand::BringBack if self.replaced.is_some() => self.bring_back_run(),
             RunCommand::BringBack => run.bring_back(),
             RunCommand::Write(request) => self.written = Some(Arc::new(write(run, &request))),
             _ => {}
@@ -278,6 +311,7 @@ impl RunRecorder {
     }
 
     fn reset(&mut self) {
+        self.replaced = None;
         if let Some(run) = self.run.take() {
             self.load(run.scene);
         }

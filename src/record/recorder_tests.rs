@@ -162,3 +162,33 @@ fn a_pause_ends_a_script() {
     assert!((1.5..2.0).contains(&paused.time), "{} s", paused.time);
     assert_eq!(paused.recorded.edits, [1.0, paused.time], "that of the user is made");
 }
+
+/// Symptom: playing backwards over a range that ended after all that was recorded came to the first Δt and stood there, “playing”,
+/// for ever; and a range of which nothing was recorded any more was worked on without end. Expected: the range is as long as what is
+/// recorded of it, and where that is nothing playing ends and says so.
+#[test]
+fn playing_over_a_range_keeps_to_what_is_recorded_of_it() {
+    let mut recorder = loaded(BOUNCE);
+    let dt = 0.1;
+    recorder.command(RunCommand::Step { dt, count: 20 });
+    frame_when_done(&mut recorder);
+    let mut play = |speed: f64, range: (f64, f64)| {
+        recorder.command(RunCommand::Seek { dt, time: 0.5 });
+        recorder.command(RunCommand::Play { dt, speed, range: Some(range) });
+        let mut times = Vec::new();
+        for _ in 0..12 {
+            assert!((0..1000).any(|_| !recorder.work(10)), "it comes to rest between two ticks of the clock");
+            times.push(frame(&mut recorder).time);
+            recorder.elapse(dt);
+        }
+        (frame(&mut recorder), times)
+    };
+    let (frame, times) = play(-1.0, (0.0, 10.0));
+    assert_eq!((frame.state, frame.message), (RunState::Playing, None));
+    assert!(times.iter().any(|time| *time > 1.5), "from the end of what is recorded again: {times:?}");
+    for (speed, range) in [(-1.0, (5.0, 10.0)), (1.0, (-2.0, -1.0))] {
+        let (frame, _) = play(speed, range);
+        assert_eq!(frame.state, RunState::Paused);
+        assert!(frame.message.is_some_and(|message| message.contains("nothing is recorded of the range")));
+    }
+}

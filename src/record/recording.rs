@@ -3,9 +3,10 @@
 
 use std::sync::Arc;
 
+use super::cost::Cost;
 use super::grid::StepGrid;
 use super::keyframes::{Keyframe, Keyframes};
-use super::ledger::{EventRow, Ledger, Names};
+use super::ledger::{Ledger, Names, Tail};
 use super::log::{Log, Noted, Then};
 use super::moment::Moment;
 use super::ticks::{Tick, Ticks};
@@ -17,6 +18,10 @@ pub(super) const BUDGET: usize = 1 << 30;
 /// Of the budget: what keyframes may take before they are thinned out, and what is dropped when all of it is used.
 const KEYFRAME_SHARE: f64 = 0.25;
 const DROPPED_SHARE: f64 = 0.25;
+/// How often that is done at once, after which a tenth is left of the time that was known.
+const MOST_DROPS: u32 = 8;
+/// Of the budget: by how much a recording that takes too much, though all that can be dropped is, grows until the next look.
+const LOOK_AGAIN_SHARE: f64 = 1.0 / 64.0;
 
 /// Edits made together.
 #[derive(Clone, Debug)]
@@ -40,6 +45,8 @@ pub(super) struct Recording {
     /// The Δt around the end.
     pub(super) end_grid: StepGrid,
     budget: usize,
+    /// Bytes from which on there may be something to drop.
+    look_at: usize,
 }
 
 /// What lay after a moment before an edit there made another future.
@@ -49,7 +56,7 @@ pub(super) struct Future {
     end: Moment,
     end_grid: StepGrid,
     pieces: Vec<Noted>,
-    rows: Vec<Arc<EventRow>>,
+    rows: Vec<Tail>,
     names: Arc<Names>,
     ticks: Vec<Tick>,
     keyframes: Vec<Keyframe>,
@@ -81,6 +88,7 @@ impl Recording {
             end: at,
             end_grid: grid,
             budget,
+            look_at: budget,
         };
         recording.take_motion(simulation);
         recording.keyframes.push(Keyframe::new(simulation, at, 0));
@@ -92,8 +100,8 @@ impl Recording {
         simulation.take_motion(|begun| self.log.note(begun));
     }
 
-    pub(super) fn note_event(&mut self, event: &Event) {
-        self.ledger.note(event);
+    pub(super) fn note_event(&mut self, event: &Event, cost: Cost) {
+        self.ledger.note(event, cost);
     }
 
     /// Notes the end of a Δt, with a keyframe now and then.
@@ -102,8 +110,8 @@ impl Recording {
         self.ticks.note(Tick { at, grid: self.end_grid });
         if self.keyframes.is_due(simulation) {
             self.keyframes.push(Keyframe::new(simulation, at, self.edits.len()));
+            self.thin_keyframes();
         }
-        self.stay_within_budget();
     }
 
     /// Records edits made at the end of what is known.
@@ -112,6 +120,8 @@ impl Recording {
         self.ledger.rename(Arc::new(Names::of(simulation)));
         let keyframe = Keyframe::new(simulation, self.end, self.edits.len());
         self.keyframes.push(keyframe.after_edit());
+        self.thin_keyframes();
+        self.stay_within_budget();
     }
 
     /// Keeps the simulation as it is at the end of what is known, before it goes elsewhere.
@@ -156,7 +166,7 @@ impl Recording {
     }
 
     pub(super) fn bytes(&self) -> usize {
-        self.log.bytes() + self.ledger.bytes() + self.keyframes.bytes()
+        self.log.bytes() + self.ledger.bytes() + self.keyframes.bytes() + self.ticks.bytes()
     }
 
     pub(super) fn budget(&self) -> usize {
@@ -164,30 +174,45 @@ impl Recording {
     }
 
     pub(super) fn set_budget(&mut self, bytes: usize) {
-        self.budget = bytes;
+        (self.budget, self.look_at) = (bytes, bytes);
+        self.thin_keyframes();
         self.stay_within_budget();
     }
 
-    /// Thins out the keyframes, then drops the oldest motion and events.
-    fn stay_within_budget(&mut self) {
+    fn thin_keyframes(&mut self) {
         while self.keyframes.bytes() as f64 > KEYFRAME_SHARE * self.budget as f64 && self.keyframes.thin() {}
-        if self.bytes() > self.budget {
-            self.drop_oldest();
-        }
     }
 
-    /// Drops a share of the time known, from its beginning. The first keyframe and the ends of Δt stay, so that any moment
+    /// Drops the oldest motion and events where all takes too much; whether it has.
+    pub(super) fn stay_within_budget(&mut self) -> bool {
+        if self.bytes() <= self.look_at {
+            return false;
+        }
+        let mut drops = 0;
+        while self.bytes() > self.budget && drops < MOST_DROPS && self.from.time < self.end.time {
+            self.drop_oldest();
+            drops += 1;
+        }
+        let more = (LOOK_AGAIN_SHARE * self.budget as f64) as usize;
+        self.look_at = self.budget.max(self.bytes().saturating_add(more));
+        drops > 0
+    }
+
+    /// Drops a share of the time known, from its beginning. The first keyframe stays, and where the Δt ended, so that any moment
     /// after can still be gone on from, by methods that step by Δt too.
     fn drop_oldest(&mut self) {
         let time = self.from.time + DROPPED_SHARE * (self.end.time - self.from.time);
         self.from = Moment::after_all(self.ledger.number_until(time), time);
         self.ledger.drop_before(time);
         self.log.drop_before(time);
+        self.ticks.drop_before(time);
+        self.keyframes.drop_before(self.from);
     }
 
     /// Takes what lies after a moment: something else will happen from there on.
     pub(super) fn split_off(&mut self, at: Moment) -> Future {
         let edits_before = self.edits.partition_point(|edits| edits.at.is_not_after(at));
+        self.look_at = self.budget;
         Future {
             from: at,
             end: std::mem::replace(&mut self.end, at),

@@ -25,6 +25,8 @@ pub const EVENT_COLUMNS: &[Column] = &[
     Column::new("kind", "/kind"),
     Column::new("a", "/a"),
     Column::new("b", "/b"),
+    Column::new("a_name", "/a_name"),
+    Column::new("b_name", "/b_name"),
     Column::new("point_x", "/point/0"),
     Column::new("point_y", "/point/1"),
     Column::new("point_z", "/point/2"),
@@ -40,6 +42,17 @@ pub const EVENT_COLUMNS: &[Column] = &[
     Column::new("rounds", "/rounds"),
 ];
 
+/// What an event took, where that is asked for: a [`Cost`](super::Cost) beside an [`EventLine`].
+pub const COST_COLUMNS: &[Column] =
+    &[Column::new("searches", "/searches"), Column::new("dropped", "/dropped")];
+
+/// A body of an event: its label, and its name if it has one.
+#[derive(Clone, Copy, Debug)]
+pub struct Who<'a> {
+    pub label: &'a str,
+    pub name: Option<&'a str>,
+}
+
 /// One contact of one event. Units as in [`Event`]; to a reader −0 is 0.
 #[derive(Clone, Debug, Serialize)]
 pub struct EventLine<'a> {
@@ -48,6 +61,10 @@ pub struct EventLine<'a> {
     kind: &'static str,
     a: &'a str,
     b: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    a_name: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    b_name: Option<&'a str>,
     point: [f64; 3],
     normal: [f64; 3],
     impulse: f64,
@@ -61,14 +78,15 @@ pub struct EventLine<'a> {
 }
 
 impl<'a> EventLine<'a> {
-    /// With the labels of the bodies.
-    pub fn new(event: &Event, a: &'a str, b: Option<&'a str>) -> Self {
+    pub fn new(event: &Event, a: Who<'a>, b: Option<Who<'a>>) -> Self {
         Self {
             seq: event.seq,
             t: event.time,
             kind: event.kind.name(),
-            a,
-            b,
+            a: a.label,
+            b: b.map(|b| b.label),
+            a_name: a.name,
+            b_name: b.and_then(|b| b.name),
             point: (event.point + glam::DVec3::ZERO).to_array(),
             normal: (event.normal + glam::DVec3::ZERO).to_array(),
             impulse: event.impulse,
@@ -87,8 +105,7 @@ fn is_about_many(kind: EventKind) -> bool {
     matches!(kind, EventKind::Dense | EventKind::GroupRest)
 }
 
-/// The cells of a row. Labels are numbers with `#`, and kinds and states words: nothing needs quotes. What is not there is
-/// empty.
+/// The cells of a row, in quotes where RFC 4180 asks for them: names may have anything in them. What is not there is empty.
 pub fn cells<'a>(row: &impl Serialize, columns: impl IntoIterator<Item = &'a Column>) -> Vec<String> {
     let row = serde_json::to_value(row).unwrap_or_default();
     columns.into_iter().map(|column| row.pointer(column.at).map(text).unwrap_or_default()).collect()
@@ -97,6 +114,9 @@ pub fn cells<'a>(row: &impl Serialize, columns: impl IntoIterator<Item = &'a Col
 fn text(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
+        Value::String(text) if text.contains(['"', ',', '\n', '\r', '\t']) => {
+            format!("\"{}\"", text.replace('"', "\"\""))
+        }
         Value::String(text) => text.clone(),
         other => other.to_string(),
     }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::cost::Cost;
 use super::drift::Drift;
 use super::grid::StepGrid;
 use super::ledger::Names;
@@ -9,7 +10,7 @@ use super::moment::Moment;
 use super::recording::{Future, Recording};
 use super::ticks::Tick;
 use crate::scene::Scene;
-use crate::sim::{Event, Fault, Progress, SimEdit, Simulation};
+use crate::sim::{Counters, Event, Fault, Progress, SimEdit, Simulation};
 
 /// Predictions carried out between two looks at the budget: a Δt may hold millions that are no events.
 pub(super) const PREDICTIONS: u32 = 16;
@@ -44,6 +45,8 @@ pub(super) struct Run {
     fault: Option<Stopped>,
     /// Whether the simulation has stopped where it was between two events.
     is_between: bool,
+    /// What the simulation counted at the last event that is known.
+    counted: Counters,
 }
 
 /// A fault, and the moment that it allows nothing after.
@@ -57,8 +60,9 @@ pub(super) struct Stopped {
 #[derive(Debug)]
 struct Replaced {
     future: Future,
-    /// How the books were off at the end of it.
+    /// How the books were off at the end of it, and what was counted at its last event.
     drift: Drift,
+    counted: Counters,
 }
 
 /// Where to stop inside a Δt.
@@ -107,6 +111,7 @@ impl Run {
             message: None,
             fault: None,
             is_between: false,
+            counted: Counters::default(),
         }
     }
 
@@ -176,7 +181,7 @@ impl Run {
         self.simulation.begin(until);
         let progress = self.simulation.work(PREDICTIONS);
         self.reached(&progress);
-        match progress {
+        let slice = match progress {
             Ok(Progress::Event(event)) => {
                 self.note(&event);
                 Slice::Event
@@ -187,14 +192,17 @@ impl Run {
                 self.grid.close();
                 self.recording.end_grid = self.grid;
                 self.recording.note_tick(&self.simulation);
-                self.forget_unreachable();
                 Slice::Done
             }
             Err(fault) => {
                 self.stop_at(&fault);
                 Slice::Pause
             }
+        };
+        if self.recording.stay_within_budget() {
+            self.forget_unreachable();
         }
+        slice
     }
 
     /// The simulation has gone on: so far is known now, and shown.
@@ -272,7 +280,8 @@ impl Run {
         self.fault = None;
         let drift = self.drift.clone();
         self.drift.drop_after(self.cursor.event, &self.simulation);
-        self.dropped = Some(Replaced { future, drift });
+        let counted = std::mem::replace(&mut self.counted, self.simulation.counters());
+        self.dropped = Some(Replaced { future, drift, counted });
     }
 
     /// Whether an edit in the past has replaced something that can be brought back.
@@ -283,6 +292,10 @@ impl Run {
     pub(super) fn set_budget(&mut self, bytes: usize) {
         self.recording.set_budget(bytes);
         self.forget_unreachable();
+        let from = self.recording.from();
+        if !from.is_not_after(self.cursor) {
+            self.show(from, self.grid_at(from));
+        }
     }
 
     /// What was replaced continues from a moment: once that is dropped to stay within the budget, it continues nothing.
@@ -293,12 +306,12 @@ impl Run {
 
     /// Takes the last edit in the past back: what it replaced is the future again.
     pub(super) fn bring_back(&mut self) {
-        let Some(Replaced { future, drift }) = self.dropped.take() else {
+        let Some(Replaced { future, drift, counted }) = self.dropped.take() else {
             self.message = Some("no edit in the past has replaced anything".into());
             return;
         };
         let moment = future.from;
-        self.drift = drift;
+        (self.drift, self.counted) = (drift, counted);
         self.recording.put_back(future);
         self.show(moment, self.grid_at(moment));
         self.fault = None;
@@ -307,7 +320,9 @@ impl Run {
 
     /// Enters an event into the recording.
     fn note(&mut self, event: &Event) {
-        self.recording.note_event(event);
+        let counters = self.simulation.counters();
+        self.recording.note_event(event, Cost::between(&self.counted, &counters));
+        self.counted = counters;
         self.drift.note(&self.simulation, event);
     }
 
@@ -320,13 +335,14 @@ impl Run {
     /// for later is another future.
     pub(super) fn edit(&mut self, mut edits: Vec<SimEdit>) {
         let mut refusal = None;
-        let at_end = self.is_live();
-        edits.retain(|edit| match self.simulation.apply(edit) {
-            Ok(()) => true,
-            Err(refused) => {
+        let (at_end, counted) = (self.is_live(), self.simulation.counters());
+        let mut outcomes = self.simulation.apply_all(&edits).into_iter();
+        edits.retain(|_| match outcomes.next() {
+            Some(Err(refused)) => {
                 refusal = Some(refused.to_string().into());
                 false
             }
+            _ => true,
         });
         self.refused = refusal.or(self.refused.take());
         self.message = None;
@@ -336,6 +352,7 @@ impl Run {
         self.dropped = None;
         if !at_end {
             self.drop_future();
+            self.counted = counted;
         }
         self.recording.take_motion(&mut self.simulation);
         self.recording.end_grid = self.grid;

@@ -83,7 +83,7 @@ impl Run {
 
     /// End of the recorded Δt that begins or lies at a time.
     fn step_end(&self, time: f64) -> f64 {
-        let next = self.recording.ticks.around(time).1.map(|tick| tick.at.time);
+        let next = self.recording.ticks.end_after(time);
         next.unwrap_or(self.recording.end.time.max(self.grid.open.map_or(time, |(_, end)| end)))
     }
 
@@ -126,12 +126,10 @@ impl Run {
         {
             let (time, edits) = (due.at.time, due.edits.clone());
             self.applied += 1;
-            for edit in &edits {
-                // It was accepted in this very state before: a refusal means that the run is no longer the same.
-                if let Err(refused) = self.simulation.apply(edit) {
-                    let text = format!("the edit made at {time} s was refused when run again: {refused}");
-                    self.message = Some(text.into());
-                }
+            // They were accepted in this very state before: a refusal means that the run is no longer the same.
+            for refused in self.simulation.apply_all(&edits).into_iter().filter_map(Result::err) {
+                let text = format!("the edit made at {time} s was refused when run again: {refused}");
+                self.message = Some(text.into());
             }
         }
     }

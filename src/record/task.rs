@@ -42,7 +42,8 @@ pub(super) struct Play {
     range: Option<(f64, f64)>,
     /// Model seconds that have come due since the last end of a Δt.
     due: f64,
-    /// Model seconds that were given up, for the machine cannot follow.
+    /// Model seconds gone through, and those that were given up, for the machine cannot follow.
+    played: f64,
     lost: f64,
     /// Whether what is shown was inside a Δt at the beginning, and counts as due.
     has_begun: bool,
@@ -79,7 +80,9 @@ impl Task {
                 match run.slice(*dt, Stop::AT_EVENTS, budget) {
                     Slice::Event if is_reached(run, *of) => *self = Self::Idle,
                     Slice::Done if *empty >= MOST_STEPS_TO_EVENT => {
-                        run.show(moment, grid);
+                        if run.recording.from().is_not_after(moment) {
+                            run.show(moment, grid);
+                        }
                         let text = format!("no event within {MOST_STEPS_TO_EVENT} Δt after this");
                         run.message = Some(text.into());
                         *self = Self::Idle;
@@ -181,7 +184,7 @@ fn ends_motion(run: &Run) -> bool {
 
 impl Play {
     pub(super) fn new(dt: f64, speed: f64, range: Option<(f64, f64)>) -> Self {
-        Self { dt, speed, range, due: 0.0, lost: 0.0, has_begun: false }
+        Self { dt, speed, range, due: 0.0, played: 0.0, lost: 0.0, has_begun: false }
     }
 
     /// Notes that wall-clock time has passed.
@@ -191,35 +194,44 @@ impl Play {
         self.lost += wanted - self.due;
     }
 
-    /// Model seconds that were given up since the last call.
-    pub(super) fn take_lost(&mut self) -> f64 {
-        std::mem::take(&mut self.lost)
+    /// Model seconds that were gone through, and that were given up, since the last call.
+    pub(super) fn take_pace(&mut self) -> (f64, f64) {
+        (std::mem::take(&mut self.played), std::mem::take(&mut self.lost))
     }
 
     /// One Δt, or what the budget allows; `Some(false)` when nothing is due, `None` at the end of what can be played.
     fn advance(&mut self, run: &mut Run, budget: &mut u32) -> Option<bool> {
         self.begin(run);
-        let is_due = self.due >= self.dt;
-        if is_due && self.speed > 0.0 {
-            if run.slice(self.dt, Stop::NOWHERE, budget) == Slice::Done {
-                self.due = (self.due - self.dt).max(0.0);
-                self.loop_over(run);
-            }
-            return Some(true);
+        let from = run.cursor.time;
+        if self.due >= self.dt {
+            let is_through =
+                if self.speed > 0.0 { self.step(run, budget) } else { self.step_back(run, budget)? };
+            self.played += (run.cursor.time - from).abs();
+            return (!is_through || self.loop_over(run)).then_some(true);
         }
-        if is_due {
-            *budget = budget.saturating_sub(1);
-            if !run.step_back() {
-                return self.range.map(|(_, to)| run.seek(to));
-            }
+        let glides = PICTURE * self.speed.abs() < self.dt && self.due > 0.0;
+        let goes_on = glides && self.glide(run, budget);
+        self.played += (run.cursor.time - from).abs();
+        Some(goes_on)
+    }
+
+    /// Goes on in the Δt that is due; whether it is through.
+    fn step(&mut self, run: &mut Run, budget: &mut u32) -> bool {
+        let is_through = run.slice(self.dt, Stop::NOWHERE, budget) == Slice::Done;
+        if is_through {
+            self.due = (self.due - self.dt).max(0.0);
+        }
+        is_through
+    }
+
+    /// Goes through the Δt before; whether there was one, and `None` where playing ends at the first.
+    fn step_back(&mut self, run: &mut Run, budget: &mut u32) -> Option<bool> {
+        *budget = budget.saturating_sub(1);
+        if run.step_back() {
             self.due -= self.dt;
-            self.loop_over(run);
             return Some(true);
         }
-        if PICTURE * self.speed.abs() < self.dt && self.due > 0.0 {
-            return Some(self.glide(run, budget));
-        }
-        Some(false)
+        self.begin_again(run).then_some(false)
     }
 
     /// What is gone of an open Δt has come due.
@@ -249,13 +261,22 @@ impl Play {
         slice != Slice::Done
     }
 
-    /// From the end of the range back to its beginning, or the other way.
-    fn loop_over(&self, run: &mut Run) {
-        let Some((from, to)) = self.range else { return };
-        if self.speed > 0.0 && run.cursor.time >= to {
-            run.seek(from);
-        } else if self.speed < 0.0 && run.cursor.time <= from {
-            run.seek(to);
+    /// At the end of the range back to its beginning, or the other way; false where playing ends.
+    fn loop_over(&self, run: &mut Run) -> bool {
+        let is_over = |(from, to)| {
+            if self.speed > 0.0 { run.cursor.time >= to } else { run.cursor.time <= from }
+        };
+        if self.range.is_some_and(is_over) { self.begin_again(run) } else { true }
+    }
+
+    /// Goes to where the range begins, backwards its end, as far as it is recorded; whether any of it is.
+    fn begin_again(&self, run: &mut Run) -> bool {
+        let Some((from, to)) = self.range else { return false };
+        run.seek(if self.speed > 0.0 { from } else { to.min(run.recording.end.time) });
+        let is_inside = if self.speed > 0.0 { run.cursor.time < to } else { run.cursor.time > from };
+        if !is_inside {
+            run.message = Some("nothing is recorded of the range that is to be played".into());
         }
+        is_inside
     }
 }

@@ -115,8 +115,8 @@ struct Worker {
 struct Clock {
     last_elapse: Instant,
     last_frame: Instant,
-    /// Time, events, Δt and model time when the last measurement began.
-    since: (Instant, u64, u64, f64),
+    /// Time, events and Δt when the last measurement began.
+    since: (Instant, u64, u64),
     counters: Counters,
     working: Duration,
     /// What making the last frame took.
@@ -133,7 +133,7 @@ impl Worker {
         let clock = Clock {
             last_elapse: now,
             last_frame: now,
-            since: (now, 0, 0, 0.0),
+            since: (now, 0, 0),
             counters: Counters::default(),
             working: Duration::ZERO,
             publishing: Duration::ZERO,
@@ -216,13 +216,13 @@ impl Worker {
 
     fn measure(&mut self) {
         let now = Instant::now();
-        let (start, events, steps, time) = self.clock.since;
+        let (start, events, steps) = self.clock.since;
         let playing = self.recorder.state() == RunState::Playing;
         let wall = (now - start).as_secs_f64();
         if playing && now - start < PACE_TIME {
             return;
         }
-        let lost = self.recorder.take_lost();
+        let (played, lost) = self.recorder.take_pace();
         let Some(run) = &self.recorder.run else { return };
         let (new_events, new_steps) = (run.at.event, run.grid.index());
         let worked = self.clock.working.as_secs_f64();
@@ -232,17 +232,11 @@ impl Worker {
         }
         let gained = new_events.saturating_sub(events) as f64;
         self.clock.pace.events_per_s = if worked > 0.0 { gained / worked } else { 0.0 };
-        self.clock.pace.real_speed =
-            if playing { (run.simulation.time() - time).max(0.0) / wall } else { 0.0 };
-        let measured = Measured {
-            before: self.clock.counters,
-            gained: (run.simulation.time() - time).max(0.0),
-            lost,
-            events: gained,
-        };
+        self.clock.pace.real_speed = if playing { played / wall } else { 0.0 };
+        let measured = Measured { before: self.clock.counters, gained: played, lost, events: gained };
         self.clock.pace.lag = if playing { lag_of(run, &measured) } else { None };
         self.clock.counters = run.simulation.counters();
-        self.clock.since = (now, new_events, new_steps, run.simulation.time());
+        self.clock.since = (now, new_events, new_steps);
         self.clock.working = Duration::ZERO;
     }
 }
@@ -256,6 +250,41 @@ enum Received {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Document;
+
+    // Symptom: the speed of a recorded stretch that was played was given as 0, and once as that of the simulation, which stood
+    // elsewhere; and nothing was said to be stepped too slowly. Expected: what is shown counts, in both directions.
+    #[test]
+    fn the_speed_of_playing_is_that_of_what_is_shown() {
+        let (_, commands) = channel();
+        let mut worker = Worker::new(commands, Arc::default(), Box::new(|| {}));
+        let bytes = include_bytes!("../../scenes/bounce.xml");
+        let scene = Document::from_bytes(bytes).scene_shared().expect("a scene");
+        let dt = 1.0 / 64.0;
+        let playing = |worker: &mut Worker, from: f64, speed: f64, wall_s: f64| {
+            worker.recorder.command(RunCommand::Seek { dt, time: from });
+            worker.recorder.command(RunCommand::Play { dt, speed, range: None });
+            for _ in 0..10 {
+                worker.recorder.work(1000);
+                worker.recorder.elapse(0.1 * wall_s);
+            }
+            worker.recorder.work(1000);
+            let since = Instant::now().checked_sub(PACE_TIME * 2).expect("the clock runs for a second");
+            worker.clock.since.0 = since;
+            worker.measure();
+            (worker.clock.pace.real_speed, worker.clock.pace.lag)
+        };
+        worker.recorder.command(RunCommand::Load(scene));
+        worker.recorder.command(RunCommand::Step { dt, count: 256 });
+        worker.recorder.work(100_000);
+        for (from, speed) in [(0.5, 1.0), (3.5, -1.0)] {
+            let (real_speed, lag) = playing(&mut worker, from, speed, 1.0);
+            assert!((real_speed - 1.0).abs() < 0.1, "{real_speed} where 1 second was played in one");
+            assert_eq!(lag, None);
+        }
+        let (real_speed, lag) = playing(&mut worker, 0.5, 1.0, 3.0);
+        assert!(real_speed < 2.0 && lag.is_none(), "{real_speed}, {lag:?}: nothing was simulated");
+    }
 
     // Symptom: while a gas of 10 000 ran in a window that drew three times a second, half of the simulation's time went to frames that
     // nobody saw. Expected: a twentieth. Cause: frames were made at a fixed pace.

@@ -23,19 +23,39 @@ use super::state::State;
 use super::tiles::StaticTiles;
 use crate::scene::{Body, NodeKey, Roughness};
 
-/// Applies an edit at `state.now`. Refused, it may leave both half changed: give it copies.
-pub(super) fn apply(model: &mut Model, state: &mut State, edit: &SimEdit) -> Result<(), EditRefused> {
+/// Applies edits made together at `state.now`: bodies go on anew once, after the last of them. Tells of each in `outcomes`
+/// whether it was taken. Where it fails as a whole, since none was taken or nothing can go on after them, both may be left
+/// half changed: give it copies.
+pub(super) fn apply(
+    model: &mut Model,
+    state: &mut State,
+    edits: &[SimEdit],
+    outcomes: &mut Vec<Result<(), EditRefused>>,
+) -> Result<(), EditRefused> {
     let before = Books::read(model, state);
-    let body = match edit {
-        SimEdit::AddBody(body) => Some(add_body(model, state, body)?),
-        SimEdit::Remove(key) => remove(model, state, *key)?,
+    let mut subjects = Vec::new();
+    for edit in edits {
+        outcomes.push(change(model, state, edit).map(|subject| subjects.push(subject)));
+    }
+    if let (true, Some(Err(refused))) = (subjects.is_empty(), outcomes.first()) {
+        return Err(refused.clone());
+    }
+    plan_anew(model, state);
+    restart_all(model, state, &before, &subjects).map_err(|fault| EditRefused(fault.to_string()))
+}
+
+/// Makes one change, without its consequences; of the body that it gives, if it is of one. Refused, nothing is changed.
+fn change(model: &mut Model, state: &mut State, edit: &SimEdit) -> Result<Option<BodyId>, EditRefused> {
+    match edit {
+        SimEdit::AddBody(body) => add_body(model, state, body).map(Some),
+        SimEdit::Remove(key) => remove(model, state, *key),
         SimEdit::AddForce(force) => {
             if model.forces.iter().any(|entry| entry.key == Some(force.key)) {
                 return Err(EditRefused(format!("force {} is there already", force.label)));
             }
             check_force(force).map_err(|problem| EditRefused(problem.message))?;
             model.forces.push(ForceEntry { key: Some(force.key), law: Law::from_kind(&force.kind) });
-            None
+            Ok(None)
         }
         SimEdit::ChangeForce(force) => {
             check_force(force).map_err(|problem| EditRefused(problem.message))?;
@@ -43,15 +63,13 @@ pub(super) fn apply(model: &mut Model, state: &mut State, edit: &SimEdit) -> Res
             let entry =
                 entry.ok_or_else(|| EditRefused(format!("force {} is not in the run", force.label)))?;
             entry.law = Law::from_kind(&force.kind);
-            None
+            Ok(None)
         }
-        SimEdit::Bounce(key, bounce) => Some(set_bounce(model, *key, *bounce)?),
-        SimEdit::Roughness(key, roughness) => Some(set_roughness(model, *key, roughness)?),
-        SimEdit::Mass(key, mass) => Some(set_mass(model, *key, *mass)?),
-        SimEdit::ChangeStatic(body) => Some(change_static(model, state, body)?),
-    };
-    plan_anew(model, state);
-    restart_all(model, state, &before, body).map_err(|fault| EditRefused(fault.to_string()))
+        SimEdit::Bounce(key, bounce) => set_bounce(model, *key, *bounce).map(Some),
+        SimEdit::Roughness(key, roughness) => set_roughness(model, *key, roughness).map(Some),
+        SimEdit::Mass(key, mass) => set_mass(model, *key, *mass).map(Some),
+        SimEdit::ChangeStatic(body) => change_static(model, state, body).map(Some),
+    }
 }
 
 /// Adds a force of the user's own at `state.now`. Copies, as for [`apply`].
@@ -63,7 +81,7 @@ pub(super) fn add_custom(
     let before = Books::read(model, state);
     model.forces.push(ForceEntry { key: None, law: Law::Custom(force) });
     plan_anew(model, state);
-    restart_all(model, state, &before, None).map_err(|fault| EditRefused(fault.to_string()))
+    restart_all(model, state, &before, &[None]).map_err(|fault| EditRefused(fault.to_string()))
 }
 
 /// Removes a force added by [`add_custom`]; whether it was there. Copies, as for [`apply`].
@@ -77,7 +95,7 @@ pub(super) fn remove_custom(
     let before = Books::read(model, state);
     model.forces.remove(index);
     plan_anew(model, state);
-    restart_all(model, state, &before, None).map_err(|fault| EditRefused(fault.to_string()))?;
+    restart_all(model, state, &before, &[None]).map_err(|fault| EditRefused(fault.to_string()))?;
     Ok(true)
 }
 
@@ -122,12 +140,13 @@ fn cut(state: &mut State, body: u32, time: f64) {
     state.segments[body as usize] = Segment::ballistic(time, x, v, DVec3::ZERO);
 }
 
-/// Begins new segments for all bodies, for any of them may be concerned, and books the edit.
+/// Begins new segments for all bodies, for any of them may be concerned, and books the edits, of which each has its row of
+/// the ledger.
 fn restart_all(
     model: &Model,
     state: &mut State,
     before: &Books,
-    changed: Option<BodyId>,
+    changed: &[Option<BodyId>],
 ) -> Result<(), Fault> {
     let time = state.now;
     let (kinetic, potential) = energies(model, state, time);
@@ -135,9 +154,11 @@ fn restart_all(
     let momentum = momentum_value(model, state, time).0;
     state.account.impulses.add(momentum - before.momentum);
     state.account.angular.impulses.add(angular_value(model, state, time).0 - before.angular);
-    let place = changed.map_or(DVec3::ZERO, |body| state.path_of(model, body).segment.x);
-    let subject = changed.map_or(BodyRef::NONE, BodyId::to_ref);
-    record(state, Event::of_one(time, EventKind::Edit, subject, place));
+    for changed in changed {
+        let place = changed.map_or(DVec3::ZERO, |body| state.path_of(model, body).segment.x);
+        let subject = changed.map_or(BodyRef::NONE, BodyId::to_ref);
+        record(state, Event::of_one(time, EventKind::Edit, subject, place));
+    }
     begin_all(model, state)
 }
 
@@ -147,17 +168,18 @@ fn add_body(model: &mut Model, state: &mut State, body: &Body) -> Result<BodyId,
     }
     let order = model.bodies.iter().filter(|(_, other)| other.identity.id == body.id).count() as u32;
     let (compiled, origin) = compile_body(body, order).map_err(|problem| EditRefused(problem.message))?;
-    let id = model.bodies.push(compiled, origin.position);
-    let Some(index) = id.dynamic() else {
-        remake_static_tiles(model);
-        return Ok(id);
-    };
-    if 2.0 * model.radius(index) > MOST_TILES_ACROSS * model.grid.tile_size.min_element() {
+    let most = MOST_TILES_ACROSS * model.grid.tile_size.min_element();
+    if !compiled.is_static() && 2.0 * compiled.shape.radius() > most {
         return Err(EditRefused(format!(
             "body {} spans too many tiles for the grid of this run; reset to run it",
             body.label
         )));
     }
+    let id = model.bodies.push(compiled, origin.position);
+    let Some(index) = id.dynamic() else {
+        remake_static_tiles(model);
+        return Ok(id);
+    };
     let row = state.push_body(origin);
     debug_assert_eq!(row, index, "every dynamic body has its row in all columns");
     enter(model, state, index, state.now);

@@ -325,7 +325,19 @@ impl Simulation {
 
     /// Applies a change now. Refused, everything is as it was.
     pub fn apply(&mut self, edit: &SimEdit) -> Result<(), EditRefused> {
-        self.change(|model, state| change::apply(model, state, edit))
+        self.apply_all(std::slice::from_ref(edit)).pop().unwrap_or(Ok(()))
+    }
+
+    /// Applies changes now, one after the other, and lets the bodies go on anew once, after all of them. What became of each:
+    /// one that is refused changes nothing, the others are made. Where nothing can go on after them, all are refused.
+    pub fn apply_all(&mut self, edits: &[SimEdit]) -> Vec<Result<(), EditRefused>> {
+        let mut outcomes = Vec::with_capacity(edits.len());
+        if let Err(refused) = self.change(|model, state| change::apply(model, state, edits, &mut outcomes)) {
+            outcomes.iter_mut().filter(|outcome| outcome.is_ok()).for_each(|outcome| {
+                *outcome = Err(refused.clone());
+            });
+        }
+        outcomes
     }
 
     /// Adds a force of the user's own now.

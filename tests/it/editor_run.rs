@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use polyscene::editor::{Action, SessionCommand, TravelCommand};
+use polyscene::editor::{Action, Session, SessionCommand, TravelCommand};
 use polyscene::record::{Frame, InlineRunner, Of, RunCommand, RunState, Runner as _, Written};
-use polyscene::scene::Document;
+use polyscene::scene::{BodyChange, Document, Edit};
 use polyscene::sim::SimEdit;
 
 use super::editor_support::{Bench, SCENE};
@@ -146,4 +146,53 @@ fn a_message_is_not_a_refused_edit() {
         assert!(bench.notices().starts_with("Not applied to the running simulation: no such body"));
         assert!(bench.session.needs_reset());
     }
+}
+
+/// Symptom: an edit at the start, after Home, began another recording, and what was recorded was gone. Expected: it can be brought
+/// back until a run is edited. Cause: the run was loaded anew as though it had not begun.
+#[test]
+fn what_was_recorded_before_an_edit_of_the_start_is_brought_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scene.xml");
+    std::fs::write(&path, SCENE).unwrap();
+    let mut session = Session::new(Box::new(InlineRunner::new()));
+    let now = std::time::Instant::now();
+    let mut act = |action: Action| {
+        session.perform(action);
+        session.poll(now);
+        (session.frame().clone(), session.scene().map(|scene| scene.bodies[1].key))
+    };
+    let run = |command| Action::Command(command);
+    let home = || run(SessionCommand::Travel(TravelCommand::GoToBegin));
+    let back = || run(SessionCommand::Travel(TravelCommand::BringBack));
+    let (_, key) = act(Action::OpenPath(path));
+    let moved = |x: f64| {
+        let change = BodyChange::Position(glam::dvec3(x, 3.0, 3.0));
+        Action::Edit { edit: Edit::Body { key: key.unwrap(), change }, gesture: None }
+    };
+    let recorded = (0..9).map(|_| act(run(SessionCommand::StepForward)).0).last().unwrap();
+    assert!(recorded.recorded.to > 0.1 && !recorded.recorded.can_bring_back);
+    assert!(act(home()).0.is_at_start());
+    // Where the run has not gone on, a second edit keeps what the first one has kept.
+    for x in [3.5, 4.0] {
+        let (edited, _) = act(moved(x));
+        assert_eq!((edited.recorded.to, edited.bodies[0].position.x), (0.0, x));
+        assert!(edited.recorded.can_bring_back);
+    }
+    let (again, _) = act(back());
+    assert_eq!((again.recorded.to, again.bodies[0].position.x), (recorded.recorded.to, 3.0));
+    assert!(again.is_at_start() && !again.recorded.can_bring_back);
+    let (end, _) = act(run(SessionCommand::Travel(TravelCommand::GoToEnd)));
+    assert_eq!((end.time, &end.bodies), (recorded.time, &recorded.bodies));
+    // The scene still has the edit: the run goes to its start as it is now.
+    let (reset, _) = act(run(SessionCommand::Reset));
+    assert_eq!(reset.bodies[0].position.x, 4.0);
+    // And a run that goes on from an edited start is kept no less.
+    act(run(SessionCommand::StepForward));
+    act(home());
+    assert!(act(moved(5.0)).0.recorded.can_bring_back);
+    act(run(SessionCommand::StepForward));
+    let lighter = Edit::Body { key: key.unwrap(), change: BodyChange::Mass(0.5) };
+    let (live, _) = act(Action::Edit { edit: lighter, gesture: None });
+    assert!(live.recorded.edits.len() == 1 && !live.recorded.can_bring_back, "until a run is edited");
 }

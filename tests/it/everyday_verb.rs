@@ -61,9 +61,13 @@ fn json_has_every_scene_in_order_whatever_the_jobs() {
 fn scenes_are_written_as_files_that_run() {
     let folder = tempfile::tempdir().unwrap();
     let name = folder.path().to_str().unwrap();
-    let output = everyday(&["--family", "stack", "--n", "5", "--e", "0.3", "--seed", "7", "--write", name]);
+    let write = ["--family", "stack", "--n", "5", "--e", "0.3", "--seed", "7", "--write", name];
+    let output = everyday(&write);
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
     let path = folder.path().join("stack-5-0.3-7.xml");
+    let refused = everyday(&write);
+    assert!(refused.status.code() == Some(2) && said(&refused).contains("--force"), "{}", said(&refused));
+    assert_eq!(everyday(&[&write[..], &["--force"]].concat()).status.code(), Some(0));
     let mut run = Command::new(env!("CARGO_BIN_EXE_polyscene"));
     let output = run.args(["run", "--until", "0.1"]).arg(path).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));

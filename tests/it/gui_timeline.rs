@@ -128,6 +128,7 @@ fn the_rows_listed_are_written_to_files() {
     assert_eq!(table[0][names.len()..], own);
     assert_eq!(table.len(), 1 + expected.len());
 
+    window.click_role(Role::CheckBox, "Costs");
     window.click_role(Role::Button, "JSON…");
     window.wait_for("Save the events as");
     window.type_text("File name or path", "rows.jsonl");
@@ -138,6 +139,8 @@ fn the_rows_listed_are_written_to_files() {
     for ((row, cells), json) in expected.iter().zip(&table[1..]).zip(&json) {
         let event = &row.event;
         assert_eq!(json["seq"], event.seq);
+        let cost = ledger.cost(event.seq).unwrap();
+        assert_eq!((&json["searches"], &json["dropped"]), (&cost.searches.into(), &cost.dropped.into()));
         assert_eq!((json["a"].as_str(), json["b"].as_str()), (Some(&*row.a_label), Some(&*row.b_label)));
         for (name, value) in [("t", event.time), ("impulse", event.impulse), ("point_x", event.point.x)] {
             assert_eq!(cells[column(name)].parse::<f64>().unwrap(), value, "{name}");

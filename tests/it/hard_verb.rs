@@ -17,6 +17,8 @@ fn a_case_is_found_by_its_number_and_its_name() {
     assert!(said(&by_name).contains("Ballistic throw"), "{}", said(&by_name));
     assert!(!said(&by_name).contains("Elastic bounce"), "{}", said(&by_name));
     assert_eq!(hard_cases(&["--case", "1"]).stdout, by_name.stdout, "the same bits of every figure");
+    let closing = String::from_utf8_lossy(&by_name.stderr).into_owned();
+    assert!(closing.starts_with("polyscene: 1 case, 1 held, ") && closing.ends_with(" s\n"), "{closing}");
     let unknown = hard_cases(&["--case", "perpetual-motion"]);
     assert_eq!(unknown.status.code(), Some(2));
     assert!(said(&unknown).contains("billiard"), "{}", said(&unknown));

@@ -234,6 +234,53 @@ fn a_small_memory_drops_the_oldest_and_says_so() {
     assert_eq!(bits(&seek(&mut runner, middle)), bits(&seek(&mut plain, middle)));
 }
 
+/// Symptom: one Δt of many events took any amount of memory, and every edit a copy of the scene for ever. Expected: what a run
+/// takes stays near its budget inside a Δt too, and what is kept is as true as before.
+#[test]
+fn the_budget_holds_inside_a_step_and_with_many_edits() {
+    let whole = step(&mut loaded("gas.xml"), 3000).recorded.clone();
+    let one_step = RunCommand::Step { dt: whole.to, count: 1 };
+    let mut runner = loaded("gas.xml");
+    runner.send(RunCommand::Budget(whole.bytes / 4));
+    let end = after(&mut runner, one_step);
+    assert!(end.recorded.bytes < whole.bytes / 4 + whole.bytes / 8, "{} bytes", end.recorded.bytes);
+    let mut plain = loaded("gas.xml");
+    let middle = 0.5 * (end.recorded.from + end.recorded.to);
+    assert!(end.recorded.from > 0.0);
+    // Rows are dropped many at once: of some that are left, what was then is no longer known.
+    let oldest = end.ledger.at(0).unwrap().event;
+    assert!(oldest.time < end.recorded.from);
+    runner.send(RunCommand::GoTo { event: oldest.seq });
+    let refused = runner.frame();
+    assert!(refused.time == end.time && refused.message.is_some());
+    let back = after(&mut runner, RunCommand::EventBack { of: Of::All });
+    assert!(back.time < end.time && back.message.is_none());
+    assert_eq!(bits(&seek(&mut runner, middle)), bits(&seek(&mut plain, middle)));
+
+    let budget = 1 << 20;
+    let [mut small, mut large] = [budget, 1 << 30].map(|bytes| {
+        let mut runner = loaded("gas.xml");
+        runner.send(RunCommand::Budget(bytes));
+        for nth in 0..100 {
+            let key = step(&mut runner, 2).bodies[0].key;
+            runner.send(RunCommand::Edit(vec![SimEdit::Mass(key, 1.0 + f64::from(nth))]));
+        }
+        runner
+    });
+    let (kept, all) = (small.frame().recorded.clone(), large.frame().recorded.clone());
+    assert!(all.bytes > 4 * budget, "of {} bytes too many", all.bytes);
+    assert!(kept.bytes < budget + budget / 4, "{} bytes of {budget}", kept.bytes);
+    assert!(kept.from > 0.0 && kept.edits.len() == 100);
+    for part in [0.0, 0.3, 1.0] {
+        let time = kept.from + part * (kept.to - kept.from);
+        assert_eq!(bits(&seek(&mut small, time)), bits(&seek(&mut large, time)));
+    }
+    // A smaller budget drops what is shown: the first that is kept is shown instead.
+    seek(&mut small, kept.from);
+    let less = after(&mut small, RunCommand::Budget(budget / 2));
+    assert!(less.recorded.from > kept.from && less.time == less.recorded.from, "{} s", less.time);
+}
+
 /// A ball that falls from 5 m: its way is the parabola itself, at any distance from the pictures.
 #[test]
 fn ways_lie_on_the_motion_itself() {

@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use glam::{DVec3, dvec3};
-use polyscene::scene::{Force, ForceKind, NodeKey, Scene};
+use polyscene::scene::{Force, ForceKind, NodeKey, Roughness, Scene};
 use polyscene::sim::{EventKind, SimEdit, Simulation};
 
 use crate::common::build::{Build, Shaped, ball, empty, plate, thesis};
@@ -211,4 +211,73 @@ fn the_same_edits_give_the_same_bits() {
             assert_same_bits(&expected, &got, &format!("{sampling:?}, {tiles}³ tiles"));
         }
     }
+}
+
+/// The same edits at one time in two copies of a run, in one of them one by one.
+fn edited_in_both_ways(scene: &Scene, at: f64, until: f64, edits: &[SimEdit]) -> [(Simulation, Run); 2] {
+    let mut start = simulation(scene);
+    let before = advance(&mut start, at, Sampling::Every(0.1));
+    [true, false].map(|together| {
+        let (mut sim, mut events) = (start.clone(), before.clone());
+        if together {
+            assert!(sim.apply_all(edits).iter().all(Result::is_ok));
+        } else {
+            edits.iter().for_each(|edit| sim.apply(edit).unwrap_or_else(|err| panic!("{edit:?}: {err}")));
+        }
+        events.extend(advance(&mut sim, until, Sampling::Every(0.1)));
+        let run = finished(&sim, events);
+        (sim, run)
+    })
+}
+
+#[test]
+fn edits_made_together_have_the_bits_of_one_after_the_other_and_begin_bodies_anew_once() {
+    let rough = Roughness { friction: 0.4, ..Roughness::default() };
+    let edits = |bodies: &[(i64, f64)]| {
+        let masses = bodies.iter().map(|(id, mass)| SimEdit::Mass(NodeKey(*id as u64), *mass));
+        masses.collect::<Vec<_>>()
+    };
+    let mut rolling = (0..6).fold(empty().gravity(-9.8).floor(1, 3.0), |scene, nth| {
+        scene.body(ball(10 + nth, dvec3(3.0 + nth as f64, 1.6, 5.0), dvec3(0.3, 0.0, 0.1)).bounce(0.5))
+    });
+    rolling.bodies.iter_mut().for_each(|body| body.roughness = rough);
+    let falling = (0..6).fold(empty().gravity(-9.8).floor(1, 3.0), |scene, nth| {
+        scene.body(
+            ball(10 + nth, dvec3(2.0 + nth as f64, 4.0, 5.0), dvec3(0.5 - nth as f64, 1.0, 0.0)).bounce(0.9),
+        )
+    });
+    for scene in [falling, rolling] {
+        let masses = edits(&[(10, 2.0), (12, 3.0), (13, 0.5)]);
+        let more =
+            SimEdit::AddBody(Box::new(ball(77, dvec3(2.0, 8.0, 7.0), dvec3(1.0, 0.0, 2.0)).bounce(0.8)));
+        let wind = SimEdit::AddForce(Box::new(Force::new(3, uniform(0.5))));
+        let edits: Vec<SimEdit> = masses.into_iter().chain([more, wind]).collect();
+        let [(once, together), (_, apart)] = edited_in_both_ways(&scene, 1.0, 4.0, &edits);
+        assert_same_bits(&apart, &together, "together");
+        let rows = once.counters().events[EventKind::Edit as usize];
+        assert_eq!(rows, edits.len() as u64);
+    }
+    // In a field every beginning rounds the velocity.
+    let [once, apart] = edited_in_both_ways(&thesis(), 1.0, 1.0, &edits(&[(5853, 2.0), (8945, 3.0)]));
+    for ((_, a), (_, b)) in once.1.states.iter().zip(&apart.1.states) {
+        assert!((a.velocity - b.velocity).length() <= 1e-14 && a.position == b.position);
+    }
+    let begun = |(sim, _): &(Simulation, Run)| sim.counters().segments;
+    assert_eq!(begun(&apart) - begun(&once), once.0.dynamic_count() as u64);
+}
+
+#[test]
+fn of_edits_made_together_those_refused_change_nothing() {
+    let edits = [SimEdit::Mass(NodeKey(5853), 2.0), SimEdit::Mass(NodeKey(8945), -1.0)];
+    let [mut both, mut one] = [(); 2].map(|()| simulation(&thesis()));
+    assert_eq!(both.apply_all(&edits).iter().map(Result::is_ok).collect::<Vec<_>>(), [true, false]);
+    one.apply(&edits[0]).unwrap_or_else(|err| panic!("{err}"));
+    for sim in [&mut both, &mut one] {
+        advance(sim, 5.0, Sampling::Every(0.5));
+    }
+    assert_eq!(both.hash(), one.hash());
+    let before = simulation(&thesis());
+    let mut after = before.clone();
+    assert!(after.apply_all(&edits[1..]).iter().all(Result::is_err));
+    assert_eq!((after.hash(), after.counters()), (before.hash(), before.counters()));
 }

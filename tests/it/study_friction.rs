@@ -6,9 +6,9 @@ use glam::{DVec3, dvec3};
 use polyscene::scene::{Body, Roughness, Scene};
 use polyscene::sim::{Event, EventKind, Simulation};
 use polyscene::study::Random;
-use polyscene::study::reference::{Hold, Reference};
+use polyscene::study::reference::{End, Hold, Reference};
 
-use crate::common::build::{Build, Shaped, ball, empty, plate};
+use crate::common::build::{Build, Shaped, ball, empty, plate, static_ball};
 use crate::common::drive::{Sampling, advance, assert_books, simulation, state_of};
 use crate::common::reference::reference;
 
@@ -204,4 +204,16 @@ fn rolling_friction_takes_what_friction_leaves() {
     let expected = reference.changes().last().expect("it rests").time;
     assert!((rests / expected - 1.0).abs() <= LIMIT, "{rests} instead of {expected}");
     assert_books(&sim, 1e-12);
+}
+
+/// Studies of scenes in which balls roll end their comparison at the first hit of one: the report says so.
+#[test]
+fn the_reference_says_why_it_ends_on_a_face() {
+    let end_of = |scene: &Scene| reference(scene).impacts(20.0).unwrap_err();
+    let OnFace { scene, normal, .. } = on_incline(0.0, rough(0.3), [2.0, 0.0], DVec3::ZERO);
+    let ahead = DVec3::splat(5.0) + 0.1 * normal + 3.0 * DVec3::X;
+    assert_eq!(end_of(&scene.body(static_ball(3, ahead, 0.1))), End::MetOnFace);
+    let mut edge = on_incline(0.0, rough(0.3), [2.0, 0.0], DVec3::ZERO).scene;
+    edge.bodies[0].shape = plate(1, DVec3::ZERO, DVec3::ZERO, 2.0, 2.0).shape;
+    assert_eq!(end_of(&edge), End::LeftFace);
 }

@@ -33,7 +33,7 @@ impl Names {
     fn in_folder(folder: &Path, pattern: &str) -> Result<Self, String> {
         let wanted = || {
             format!(
-                "several pictures need a folder, or a name with one place for a number such as {USUAL}: {pattern}"
+                "several pictures need a folder that is there, or a name with one place for a number such as {USUAL}: {pattern}"
             )
         };
         let (mut before, mut after, mut digits) = (String::new(), None::<String>, 0);

@@ -4,9 +4,7 @@ mod drive;
 mod final_scene;
 mod progress;
 mod recorder;
-mod rows;
 mod summary;
-mod table;
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -17,10 +15,10 @@ use self::drive::{Ending, Stops};
 use self::final_scene::FinalScene;
 use self::recorder::Recorder;
 use self::summary::Summary;
-use self::table::RowArgs;
 use super::limits::LimitArgs;
 use super::output::{self, is_stdout};
 use super::samples::SampleGrid;
+use super::table::RowArgs;
 use super::{CliError, input, interrupt, method, number};
 use crate::record::Watch;
 use crate::scene::shown_path;
@@ -69,8 +67,8 @@ pub struct RunArgs {
     #[arg(long = "final", value_name = "FILE.xml")]
     final_scene: Option<PathBuf>,
 
-    /// Let --final replace a file, be it the scene itself
-    #[arg(long, requires = "final_scene")]
+    /// Let outputs replace files, and --final the scene itself
+    #[arg(long)]
     force: bool,
 
     /// Print one JSON object that sums the run up to standard output
@@ -168,14 +166,9 @@ fn refuse_clashing_outputs(args: &RunArgs) -> Result<(), CliError> {
             let text = format!("{option} would overwrite the scene {}{way_out}", shown_path(path));
             return Err(CliError::Usage(text));
         }
+        output::refuse_taken(option, path, args.force)?;
     }
-    match &args.final_scene {
-        Some(path) if !args.force && output::holds_something(path) => Err(CliError::Usage(format!(
-            "--final would overwrite {}: give another name, or --force",
-            shown_path(path)
-        ))),
-        _ => Ok(()),
-    }
+    Ok(())
 }
 
 fn examples() -> &'static str {
@@ -205,7 +198,7 @@ States, one row at t = 0, after every N-th Δt and at the end:
 Events, one row per contact:
   {\"seq\":1,\"t\":0.1,\"kind\":\"impact\",\"a\":\"7\",\"b\":\"9\",\"point\":[..],\"normal\":[..],
    \"impulse\":1.0,\"vn_before\":-2.0,\"vn_after\":2.0,\"group\":1,\"dt_index\":12}
-  a has the smaller UserID; b is null for an event of one body
+  a has the smaller UserID; b is null for an event of one body; where they have names, \"a_name\" and \"b_name\" follow
   point is on the surfaces, in m; normal is the unit vector from a to b
   impulse is in N·s; vn is the speed of b against a along normal, in m/s
   group numbers the impacts and collapses: the contacts of bodies that touch are resolved

@@ -4,11 +4,12 @@ use std::time::{Duration, Instant};
 
 use super::RunArgs;
 use super::progress::Progress;
-use super::table::{Table, Wanted};
 use crate::cli::CliError;
 use crate::cli::output::LineSink;
 use crate::cli::samples::SampleGrid;
-use crate::sim::{Event, Simulation};
+use crate::cli::table::{Happened, Table, Wanted};
+use crate::record::Cost;
+use crate::sim::{Counters, Event, Simulation};
 
 /// Rows reach their readers, and the bar moves, this often.
 const TICK: Duration = Duration::from_millis(100);
@@ -27,6 +28,8 @@ pub struct Recorder {
     states_every: u64,
     overlap_every: u64,
     last_step: u64,
+    /// At the event before.
+    counters: Counters,
     /// Whether the run has a purpose besides the rows.
     has_other_purpose: bool,
 }
@@ -49,6 +52,7 @@ impl Recorder {
             states_every: args.every,
             overlap_every: grid.steps.div_ceil(OVERLAP_LOOKS),
             last_step: grid.steps,
+            counters: Counters::default(),
         })
     }
 
@@ -73,10 +77,12 @@ impl Recorder {
 
     /// Takes down an event of the `dt_index`-th Δt.
     pub fn event(&mut self, sim: &Simulation, event: &Event, dt_index: u64) -> Result<(), CliError> {
-        match &mut self.events {
-            Some(table) => table.event(sim, event, dt_index, &self.wanted),
-            None => Ok(()),
-        }
+        let Some(table) = &mut self.events else { return Ok(()) };
+        let counters = sim.counters();
+        let cost = Cost::between(&self.counters, &counters);
+        self.counters = counters;
+        let (a, b) = (sim.label(event.a), event.b.map(|b| sim.label(b)));
+        table.event(&Happened { event, a, b, dt_index, cost }, &self.wanted)
     }
 
     /// Called often; acts every [`TICK`].

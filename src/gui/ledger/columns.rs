@@ -2,7 +2,7 @@
 
 use crate::gui::context::AppContext;
 use crate::gui::numbers::significant;
-use crate::record::EventRow;
+use crate::record::{Cost, EventRow};
 use crate::scene::{Map, NodeKey};
 use crate::sim::{Event, EventKind};
 
@@ -26,7 +26,10 @@ pub struct LedgerColumn {
 pub const KIND: usize = 3;
 pub const BODIES: usize = 4;
 
-pub const COLUMNS: [LedgerColumn; 14] = [
+/// How many of the last columns are shown only when they are asked for.
+pub const COSTS: usize = 2;
+
+pub const COLUMNS: [LedgerColumn; 16] = [
     LedgerColumn {
         title: "#",
         help: "Number of the event since the start",
@@ -135,7 +138,25 @@ pub const COLUMNS: [LedgerColumn; 14] = [
         },
         key: None,
     },
+    LedgerColumn {
+        title: "Searches",
+        help: "Pairs of bodies whose time of impact was searched for since the event before, as this one asked for too: other tiles, other numbers",
+        width: 66.0,
+        text: |context, row| cost(context, row, |cost| cost.searches),
+        key: None,
+    },
+    LedgerColumn {
+        title: "Dropped",
+        help: "Predictions dropped since the event before, for a body had changed since they were made: other tiles, other numbers",
+        width: 62.0,
+        text: |context, row| cost(context, row, |cost| cost.dropped),
+        key: None,
+    },
 ];
+
+fn cost(context: &AppContext<'_>, row: &EventRow, of: fn(Cost) -> u32) -> String {
+    context.session.frame().ledger.cost(row.event.seq).map_or(String::new(), |cost| of(cost).to_string())
+}
 
 fn kind(row: &EventRow) -> String {
     let name = row.event.kind.name().replace('_', " ");

@@ -17,7 +17,7 @@ use super::theme::ROW_HEIGHT;
 use super::widgets::{cell, mono};
 use crate::editor::Action;
 use crate::record::EventRow;
-use columns::{BODIES, COLUMNS, KIND, joined};
+use columns::{BODIES, COLUMNS, COSTS, KIND, LedgerColumn, joined};
 use filter::FilterBar;
 use listed::{Listed, Order};
 use written::{Kind, Rows, Writing};
@@ -30,6 +30,8 @@ pub struct LedgerPanel {
     bar: FilterBar,
     order: Order,
     listed: Listed,
+    /// Whether the columns of costs are shown and written.
+    costs: bool,
     /// The event shown when the list was scrolled to it last.
     scrolled_to: Option<u64>,
     /// Where to scroll to next, as a share of all rows.
@@ -67,7 +69,8 @@ impl LedgerPanel {
             // a low panel shows few rows, not a list that runs out of it
             .min_scrolled_height(0.0)
             .auto_shrink(false);
-        for column in &COLUMNS {
+        let shown = self.columns();
+        for column in shown {
             table = table.column(Column::initial(column.width).resizable(true).clip(true));
         }
         if let Some(row) = self.row_to_scroll_to(context) {
@@ -77,18 +80,23 @@ impl LedgerPanel {
         let mut chosen = None;
         table
             .header(ROW_HEIGHT, |mut header| {
-                for nth in 0..COLUMNS.len() {
+                for nth in 0..shown.len() {
                     header.col(|ui| chosen = title(ui, nth, order).or(chosen));
                 }
             })
             .body(|body| {
                 body.rows(ROW_HEIGHT, listed.len(), |mut row| {
                     if let Some(event) = listed.row(ledger, row.index()) {
-                        show_row(&mut row, context, event);
+                        show_row(&mut row, context, event, shown);
                     }
                 });
             });
         self.order = chosen.unwrap_or(self.order);
+    }
+
+    fn columns(&self) -> &'static [LedgerColumn] {
+        let hidden = if self.costs { 0 } else { COSTS };
+        COLUMNS.split_at(COLUMNS.len() - hidden).0
     }
 
     /// Scrolls to a place in the list, from 0 at its beginning to 1 at its end.
@@ -120,6 +128,9 @@ impl LedgerPanel {
             }
             return;
         }
+        let help =
+            "Also shows and writes what the core did for each event: searches, and predictions dropped";
+        ui.checkbox(&mut self.costs, "Costs").on_hover_text(help);
         let buttons = [
             (Kind::Copy, "Copy", "The rows listed as text with tabs, for a spreadsheet"),
             (Kind::Csv, "CSV…", "Writes the rows listed to a file, with all digits"),
@@ -127,7 +138,7 @@ impl LedgerPanel {
         ];
         for (kind, name, help) in buttons {
             if ui.small_button(name).on_hover_text(help).clicked() {
-                let rows = Rows::new(context, kind, self.bar.wanted(context), self.order);
+                let rows = Rows::new(context, kind, self.bar.wanted(context), (self.order, self.costs));
                 self.writing = Some(rows.start(ui.ctx()));
             }
         }
@@ -174,12 +185,17 @@ fn title(ui: &mut Ui, nth: usize, order: Order) -> Option<Order> {
     clicked.then_some(Order { column: nth, falling: order.column == nth && !order.falling })
 }
 
-fn show_row(row: &mut TableRow<'_, '_>, context: &AppContext<'_>, event: &Arc<EventRow>) {
+fn show_row(
+    row: &mut TableRow<'_, '_>,
+    context: &AppContext<'_>,
+    event: &Arc<EventRow>,
+    columns: &[LedgerColumn],
+) {
     let frame = context.session.frame();
     let is_shown = context.session.shown_event().is_some_and(|shown| shown.event.seq == event.event.seq);
     let is_to_come = event.event.seq > frame.event_count;
     row.set_selected(is_shown);
-    for (nth, column) in COLUMNS.iter().enumerate() {
+    for (nth, column) in columns.iter().enumerate() {
         let text = (column.text)(context, event);
         let help = help(nth, event, &text);
         let text = if matches!(nth, KIND | BODIES) { RichText::new(text) } else { mono(text) };

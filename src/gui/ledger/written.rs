@@ -1,6 +1,8 @@
 //! The rows of the ledger as text, written in the background: what `run --events` writes of an event, and what the ledger knows
 //! beyond that.
 
+use std::collections::BTreeMap;
+
 use egui::Context;
 use serde::Serialize;
 
@@ -10,8 +12,8 @@ use super::listed::{Listed, Order};
 use crate::editor::ExportedFile;
 use crate::gui::background::{Background, GoOn};
 use crate::gui::context::{AppContext, Message};
-use crate::record::{Column, EVENT_COLUMNS, EventLine, EventRow, Ledger, cells};
-use crate::scene::Map;
+use crate::record::{COST_COLUMNS, Column, Cost, EVENT_COLUMNS, EventLine, EventRow, Ledger, Who, cells};
+use crate::scene::{Map, NodeKey};
 
 /// What a [`Line`] has besides the columns of an event.
 const OWN_COLUMNS: &[Column] = &[
@@ -36,6 +38,9 @@ struct Line<'a> {
     row: u32,
     rows: u32,
     tile: Option<[u32; 3]>,
+    /// Where it is asked for.
+    #[serde(flatten)]
+    cost: Option<Cost>,
 }
 
 /// How rows are written.
@@ -53,15 +58,21 @@ pub(super) struct Rows {
     pub ledger: Ledger,
     pub filter: Filter,
     pub order: Order,
+    /// Whether with what each event took.
+    costs: bool,
     step: Option<(f64, f64)>,
     map: Option<Map>,
+    /// Of the bodies of the scene that have one.
+    names: BTreeMap<NodeKey, String>,
 }
 
 impl Rows {
-    pub fn new(context: &AppContext<'_>, kind: Kind, filter: Filter, order: Order) -> Self {
+    pub fn new(context: &AppContext<'_>, kind: Kind, filter: Filter, (order, costs): (Order, bool)) -> Self {
         let frame = context.session.frame();
         let map = context.scene().map(|scene| scene.map);
-        Self { kind, ledger: frame.ledger.clone(), filter, order, step: frame.step, map }
+        let bodies = context.scene().into_iter().flat_map(|scene| &scene.bodies);
+        let names = bodies.filter_map(|body| Some((body.key, body.name.clone()?))).collect();
+        Self { kind, ledger: frame.ledger.clone(), filter, order, costs, step: frame.step, map, names }
     }
 
     /// Begins to write them.
@@ -77,7 +88,8 @@ impl Rows {
                 return cancelled();
             }
         }
-        let columns: Vec<&Column> = EVENT_COLUMNS.iter().chain(OWN_COLUMNS).collect();
+        let costs = if self.costs { COST_COLUMNS } else { &[] };
+        let columns: Vec<&Column> = EVENT_COLUMNS.iter().chain(OWN_COLUMNS).chain(costs).collect();
         let mut text = String::new();
         if let Some(separator) = self.separator() {
             text = columns.iter().map(|column| column.name).collect::<Vec<_>>().join(separator) + "\n";
@@ -106,10 +118,17 @@ impl Rows {
         }
     }
 
-    fn line<'a>(&self, row: &'a EventRow) -> Line<'a> {
+    fn line<'a>(&'a self, row: &'a EventRow) -> Line<'a> {
         let [nth, of] = row.event.row_in_group;
+        let who = |key, label| Who { label, name: self.names.get(&key).map(String::as_str) };
+        let cost = self.costs.then(|| self.ledger.cost(row.event.seq)).flatten();
         Line {
-            event: EventLine::new(&row.event, &row.a_label, row.b_key.map(|_| &*row.b_label)),
+            event: EventLine::new(
+                &row.event,
+                who(row.a_key, &row.a_label),
+                row.b_key.map(|key| who(key, &row.b_label)),
+            ),
+            cost,
             fraction: fraction(self.step, row),
             energy_change: row.energy_change(),
             row: nth,

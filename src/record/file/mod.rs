@@ -72,6 +72,9 @@ pub struct Steps {
 pub struct EditsAt {
     pub at: Moment,
     pub edits: Vec<SimEdit>,
+    /// Whether bodies went on anew once, after all of them; files of older programs tell of runs in which they did after each.
+    #[serde(default)]
+    pub at_once: bool,
 }
 
 /// A moment with the hash of the simulation there.
@@ -187,6 +190,23 @@ impl RecordingFile {
                 Err(RecordingError::Scene(text.to_owned()))
             }
         }
+    }
+
+    /// Number of the recorded Δt that a time (s) lies in, from 1; at its end it belongs to the one that ends there.
+    pub fn step_of(&self, time: f64) -> u64 {
+        let (mut origin, mut before) = (0.0, 0);
+        for &Steps { dt, count } in &self.steps {
+            let end = |nth: u64| origin + nth as f64 * dt;
+            if time <= end(count) {
+                // The quotient may be off by its rounding.
+                let near = (((time - origin) / dt).ceil().max(1.0) as u64).min(count);
+                let first = (near.saturating_sub(1).max(1)..=near).find(|nth| time <= end(*nth));
+                return before + first.unwrap_or((near + 1).min(count));
+            }
+            origin = end(count);
+            before += count;
+        }
+        before + 1
     }
 
     /// Numbers that a run could not take.

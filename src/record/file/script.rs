@@ -8,6 +8,7 @@ use crate::record::command::{Goal, RunCommand};
 use crate::record::moment::Moment;
 use crate::record::run::Run;
 use crate::scene::{Scene, write_atomically};
+use crate::sim::SimEdit;
 
 /// States along the way that a file has at most.
 const MOST_CHECKPOINTS: usize = 2000;
@@ -16,8 +17,9 @@ const MOST_CHECKPOINTS: usize = 2000;
 pub(in crate::record) fn file_of(run: &Run, scene_name: &str, scene: &[u8]) -> RecordingFile {
     let recording = &run.recording;
     let method = run.simulation.method();
+    let made = recording.edits().iter();
     let edits: Vec<EditsAt> =
-        recording.edits().iter().map(|edits| EditsAt { at: edits.at, edits: edits.edits.clone() }).collect();
+        made.map(|edits| EditsAt { at: edits.at, edits: edits.edits.clone(), at_once: true }).collect();
     RecordingFile {
         names: keys::names(&run.scene, edits.iter().flat_map(|edits| &edits.edits)),
         edits,
@@ -70,7 +72,10 @@ impl RecordingFile {
         let mut edits = keys::with_keys_of(scene, &self.names, all)?.into_iter();
         for group in &self.edits {
             way.go_to(group.at);
-            way.commands.push(RunCommand::Edit(edits.by_ref().take(group.edits.len()).collect()));
+            let group_edits: Vec<SimEdit> = edits.by_ref().take(group.edits.len()).collect();
+            let together = if group.at_once { group_edits.len().max(1) } else { 1 };
+            let commands = group_edits.chunks(together).map(|edits| RunCommand::Edit(edits.to_vec()));
+            way.commands.extend(commands);
         }
         way.go_to(self.end);
         Ok(way.commands)

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::RecordingFile;
 use crate::record::command::{Of, RunCommand};
 use crate::record::inline::InlineRunner;
-use crate::record::{Frame, Runner as _};
+use crate::record::{Frame, Limits, Rerun, Runner as _};
 use crate::scene::{Body, Document, ForceKind, Motion, NodeKey, Shape};
 use crate::sim::{Method, SimEdit};
 
@@ -21,8 +21,8 @@ fn runner(document: &Document, method: Method) -> InlineRunner {
     runner
 }
 
-/// Edits of every kind, at the end of a Δt, inside one and right at an event.
-fn edited(method: Method) -> (Arc<Frame>, RecordingFile) {
+/// Edits of every kind, at the end of a Δt, inside one and right at an event; those of one moment together, or one by one.
+fn edited(method: Method, together: bool) -> (Arc<Frame>, RecordingFile) {
     let document = Document::from_bytes(SCENE);
     let scene = document.scene().unwrap().clone();
     let mut runner = runner(&document, method);
@@ -31,7 +31,8 @@ fn edited(method: Method) -> (Arc<Frame>, RecordingFile) {
         runner.send(command);
     };
     send(RunCommand::Step { dt: DT, count: 7 });
-    send(RunCommand::Edit(vec![SimEdit::Mass(ball, 3.25), SimEdit::Bounce(wall.key, 0.5)]));
+    let edits = [SimEdit::Mass(ball, 3.25), SimEdit::Bounce(wall.key, 0.5)];
+    edits.chunks(if together { 2 } else { 1 }).for_each(|edits| send(RunCommand::Edit(edits.to_vec())));
     send(RunCommand::NextEvent { dt: DT, of: Of::All });
     let mut force = scene.forces[0].clone();
     force.kind = ForceKind::GravityPlane { position: glam::DVec3::ZERO, acceleration: glam::DVec3::X };
@@ -53,7 +54,7 @@ fn edited(method: Method) -> (Arc<Frame>, RecordingFile) {
 #[test]
 fn the_same_run_comes_out_of_a_file_with_edits() {
     for method in Method::ALL {
-        let (recorded, file) = edited(method);
+        let (recorded, file) = edited(method, true);
         let file = RecordingFile::read(&file.to_bytes().unwrap()).unwrap();
         let document = file.document().unwrap();
         let mut again = runner(&document, file.method().unwrap());
@@ -80,6 +81,25 @@ fn the_same_run_comes_out_of_a_file_with_edits() {
         }
         assert!(file.checkpoints.len() > 4, "{name}: {} states", file.checkpoints.len());
     }
+}
+
+/// Files of programs that let bodies go on anew after each edit of several are made again so.
+#[test]
+fn a_file_of_edits_made_one_after_the_other_is_run_as_it_was() {
+    let (recorded, file) = edited(Method::Exact, false);
+    let mut older: serde_json::Value = serde_json::from_slice(&file.to_bytes().unwrap()).unwrap();
+    let made = older["edits"].as_array_mut().unwrap();
+    let second = made.remove(1);
+    assert_eq!(made[0]["at"], second["at"]);
+    made[0]["edits"].as_array_mut().unwrap().push(second["edits"][0].clone());
+    for edits in made {
+        assert_eq!(edits.as_object_mut().unwrap().remove("at_once"), Some(true.into()));
+    }
+    let file = RecordingFile::read(older.to_string().as_bytes()).unwrap();
+    let mut again = Rerun::of(file, Limits::default(), &mut |_| true).unwrap();
+    assert_eq!(again.runner().frame().event_count, recorded.event_count);
+    let compared = again.verify(&mut |_| true).unwrap();
+    assert!(compared.same > 4, "{compared:?}");
 }
 
 /// Two balls that meet after 1800 s in which nothing happens.

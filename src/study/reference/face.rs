@@ -114,7 +114,7 @@ impl Ball {
             }
         }
         if on.end.is_none() && ball.load(on.normal, forces, DVec3::ZERO, DVec3::ZERO).pressing <= 0.0 {
-            on.end = Some(End::ChangedContact);
+            on.end = Some(End::LeftFace);
         }
         ball.on = Some(on);
         ball
@@ -223,7 +223,7 @@ impl Ball {
         let before = on.hold;
         self.rolls_on(on, forces);
         if before == Hold::Rolls && on.hold == Hold::Slides {
-            on.end = Some(End::ChangedContact);
+            on.end = Some(End::SlippedAnew);
         }
         used
     }

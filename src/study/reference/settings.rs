@@ -31,9 +31,16 @@ pub enum End {
     /// Bounces are about to end in rest or in a slide along the surface.
     #[error("two bodies stay in contact")]
     LastingContact,
-    /// A ball that lies on a face leaves it, begins to slip anew or meets another body.
-    #[error("a ball that lies on a face ceases to do so alone, or begins to slip")]
-    ChangedContact,
+    /// A ball that lies on a face meets another body: what the three exchange at once is laid down by a rule, such as that of
+    /// the core, which this one must not share.
+    #[error("a ball that lies on a face meets another body, for which it has no rule")]
+    MetOnFace,
+    /// A ball on a face is lifted from it, or comes to its edge.
+    #[error("a ball leaves the face that it lay on")]
+    LeftFace,
+    /// A ball that rolls begins to slip.
+    #[error("a ball that rolled on a face begins to slip")]
+    SlippedAnew,
     /// A force or a speed became infinite.
     #[error("a number is no longer finite")]
     NotFinite,

@@ -226,7 +226,7 @@ impl Reference {
             Pair::Static(i, _) => is_lying(i),
         };
         if more_than_two {
-            self.end = Some(End::ChangedContact);
+            self.end = Some(End::MetOnFace);
         }
         if let Some(end) = self.end {
             return Err(end);
@@ -257,7 +257,7 @@ impl Reference {
                 self.changes.extend(time.map(|time| Change { time, ball: ball.id, hold }));
             }
             let leaves = self.statics[on.fixture].surface.face_under(ball.position.value).is_none();
-            self.end = on.end.or(self.end).or(leaves.then_some(End::ChangedContact));
+            self.end = on.end.or(self.end).or(leaves.then_some(End::LeftFace));
         }
         let small = duration + self.time_rest;
         let time = self.time + small;

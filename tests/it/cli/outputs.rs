@@ -114,7 +114,35 @@ fn a_last_state_replaces_a_scene_only_by_force() {
         assert!(bench.read(target).contains("<!-- kept -->") && bench.read(target) != BOUNCE, "{target}");
     }
     assert_eq!(bench.polyscene(&[&RUN[..], &["--final", "empty.xml"]].concat()).code, 0);
-    refused(&bench, &[&RUN[..], &["--force"]].concat(), "--final");
+}
+
+/// Symptom: `run --states`, `run --events`, `replay --events` and `study --csv` replaced a file that was there. Expected: they ask
+/// for `--force`, as all others do.
+#[test]
+fn rows_and_figures_replace_a_file_only_by_force() {
+    let bench = Bench::with_scene(BOUNCE);
+    let made = bench.polyscene(&["record", "scene.xml", "--until", "1", "-o", "run.psrec"]);
+    assert_eq!(made.code, 0, "{}", made.stderr);
+    let study = ["study", "scene.xml", "--until", "0.1", "--methods", "exact", "--repeat", "1"];
+    for (verb, option) in [
+        (&RUN[..], "--states"),
+        (&RUN[..], "--events"),
+        (&["replay", "run.psrec"], "--events"),
+        (&study, "--csv"),
+        (&study, "--svg"),
+    ] {
+        bench.write("work.csv", "work");
+        let arguments = [verb, &[option, "work.csv"]].concat();
+        refused(
+            &bench,
+            &arguments,
+            &format!("{option} would overwrite work.csv: give another name, or --force"),
+        );
+        assert_eq!(bench.read("work.csv"), "work");
+        let forced = bench.polyscene(&[&arguments[..], &["--force"]].concat());
+        assert_eq!(forced.code, 0, "{arguments:?}: {}", forced.stderr);
+        assert_ne!(bench.read("work.csv"), "work");
+    }
 }
 
 #[cfg(feature = "render")]
@@ -133,7 +161,14 @@ fn a_picture_may_go_to_standard_output() {
 #[test]
 fn a_picture_in_no_folder_is_refused_in_words() {
     let bench = Bench::with_scene(BOUNCE);
-    refused(&bench, &["render", "scene.xml", "-o", "no/x.png"], "the folder no does not exist");
+    refused(
+        &bench,
+        &["render", "scene.xml", "-o", "no/x.png"],
+        "the folder no does not exist; make it first",
+    );
+    let film = ["render", "scene.xml", "--until", "1", "--fps", "2", "-o"];
+    refused(&bench, &[&film[..], &["no/"]].concat(), "the folder no does not exist; make it first");
+    refused(&bench, &[&film[..], &["no"]].concat(), "need a folder that is there");
 }
 
 /// Symptom: rows written to a hard link of the scene, or to the file that standard input came from, destroyed

@@ -182,7 +182,8 @@ fn events_do_not_depend_on_the_step() {
 fn a_scene_with_errors_leaves_earlier_outputs_alone() {
     let bench = Bench::with_scene(&BOUNCE.replace("0,5", "-1"));
     bench.write("states.jsonl", "precious\n");
-    let options = ["--dt", "0.1", "--until", "1", "--states", "states.jsonl", "--final", "final.xml"];
+    let options =
+        ["--dt", "0.1", "--until", "1", "--states", "states.jsonl", "--final", "final.xml", "--force"];
     let outcome = bench.polyscene(&[&["run", "scene.xml"], &options[..]].concat());
     assert_eq!(outcome.code, 1);
     assert!(outcome.stderr.contains("scene.xml:19:"), "{}", outcome.stderr);

@@ -121,6 +121,58 @@ fn rows_are_filtered_by_body_kind_and_column() {
     }
 }
 
+const TWO: &str = r#"    <SoftObject UserID="8"><?polyscene name="high, &quot;8&quot;"?><Translation X="2" Y="8" Z="2" /><Sphere><Radius F32="0,5" /></Sphere></SoftObject>
+    <HardObject"#;
+
+/// Symptom: `replay --events` had fewer columns than `run --events`, and no CSV. Expected: the same rows, to the byte.
+#[test]
+fn a_replay_writes_the_rows_of_its_run() {
+    let bench = Bench::with_scene(&BOUNCE.replace("    <HardObject", TWO));
+    let ok = |arguments: &[&str]| {
+        let outcome = bench.polyscene(arguments);
+        assert_eq!(outcome.code, 0, "{arguments:?}: {}", outcome.stderr);
+    };
+    let scene = ["scene.xml", "--until", "3", "--dt", "0.3"];
+    ok(&[&["record"], &scene[..], &["-o", "run.psrec"]].concat());
+    for (file, options) in [
+        ("rows.csv", &[][..]),
+        ("rows.jsonl", &[]),
+        ("impacts.csv", &["--kinds", "impact", "--bodies", "8", "--columns", "t,a_name,dt_index"]),
+        ("costs.jsonl", &["--costs"]),
+    ] {
+        let of_replay = format!("again-{file}");
+        ok(&[&["run"], &scene[..], &["--events", file], options].concat());
+        ok(&[&["replay", "run.psrec", "--events", &of_replay], options].concat());
+        assert_eq!(bench.read(file), bench.read(&of_replay), "{file}");
+        assert!(bench.read(file).lines().count() > 1, "{file}");
+    }
+}
+
+#[test]
+fn events_have_the_names_of_their_bodies_and_what_they_took() {
+    let bench = Bench::with_scene(&BOUNCE.replace("    <HardObject", TWO));
+    let run = |options: &[&str]| {
+        let outcome = bench.polyscene(&[&["run", "scene.xml", "--until", "3"], options].concat());
+        assert_eq!(outcome.code, 0, "{options:?}: {}", outcome.stderr);
+        outcome.stdout
+    };
+    let json = rows(&run(&["--events", "-"]));
+    let of = |id: &str| json.iter().find(|row| row["a"] == id || row["b"] == id).expect("it meets the floor");
+    assert!(json.iter().all(|row| row.get("searches").is_none()));
+    assert!(of("7").get("a_name").is_none() && of("7").get("b_name").is_none());
+    let named = [("a", "a_name"), ("b", "b_name")].map(|(id, name)| (&of("8")[id], &of("8")[name]));
+    assert!(named.iter().any(|(id, name)| **id == "8" && **name == "high, \"8\""), "{named:?}");
+    let text = run(&["--events", "-", "--rows", "csv"]);
+    assert!(text.starts_with("seq,t,kind,a,b,a_name,b_name,point_x,"), "{text}");
+    assert!(text.contains(",\"high, \"\"8\"\"\","), "{text}");
+    let costs = rows(&run(&["--events", "-", "--costs"]));
+    assert!(costs.iter().all(|row| number(&row["searches"]) >= 1.0), "each event is found anew: {costs:?}");
+    let table = run(&["--events", "-", "--rows", "csv", "--columns", "seq,searches,dropped"]);
+    for (row, json) in csv(&table)[1..].iter().zip(&costs) {
+        assert_eq!([row[1], row[2]], [&json["searches"], &json["dropped"]].map(ToString::to_string));
+    }
+}
+
 /// Blocks of a language in docs/format.md.
 fn examples(language: &str) -> Vec<String> {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/format.md");

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use serde::Serialize;
 
-use crate::record::{self, Column, EventLine};
+use crate::record::{self, Column, Cost, EventLine, Who};
 use crate::sim::{BodyRef, Event, Simulation};
 
 /// Of one body at one time. Orientation and spin are there where bodies rub.
@@ -32,6 +32,7 @@ pub fn state_columns() -> Vec<&'static Column> {
     STATE_COLUMNS.iter().collect()
 }
 
+/// Those that every row of an event has.
 pub fn event_columns() -> Vec<&'static Column> {
     record::EVENT_COLUMNS.iter().chain([&DT_INDEX]).collect()
 }
@@ -93,12 +94,15 @@ pub struct EventRow<'a> {
     #[serde(flatten)]
     event: EventLine<'a>,
     dt_index: u64,
+    /// Where it is asked for.
+    #[serde(flatten)]
+    cost: Option<Cost>,
 }
 
 impl<'a> EventRow<'a> {
-    pub fn new(sim: &'a Simulation, event: &Event, dt_index: u64) -> Self {
-        let event = EventLine::new(event, sim.label(event.a), event.b.map(|b| sim.label(b)));
-        Self { event, dt_index }
+    /// Of an event of the `dt_index`-th Δt.
+    pub fn new(event: &Event, bodies: (Who<'a>, Option<Who<'a>>), dt_index: u64, cost: Option<Cost>) -> Self {
+        Self { event: EventLine::new(event, bodies.0, bodies.1), dt_index, cost }
     }
 }
 

@@ -1,15 +1,15 @@
 //! Rows as JSON Lines or as CSV (RFC 4180), of the bodies, kinds and columns that were asked for.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 
+use super::CliError;
+use super::output::LineSink;
 use super::rows::{EventRow, StateRow, event_columns, state_columns};
-use crate::cli::CliError;
-use crate::cli::output::LineSink;
-use crate::record::{Column, cells};
+use crate::record::{COST_COLUMNS, Column, Cost, Who, cells};
 use crate::scene::{Body, Scene};
 use crate::sim::{BodyRef, Event, EventKind, Simulation};
 
@@ -23,7 +23,7 @@ pub enum Style {
 /// What of the rows is written.
 #[derive(Clone, Debug, Default, Args)]
 pub struct RowArgs {
-    /// How --states and --events are written; by default csv for a file that ends so, else jsonl
+    /// How rows are written; by default csv for a file that ends so, else jsonl
     #[arg(long = "rows", value_name = "FORMAT")]
     style: Option<Style>,
 
@@ -38,12 +38,29 @@ pub struct RowArgs {
     /// Only these columns of CSV, separated by commas, in this order
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     columns: Vec<String>,
+
+    /// Also what the core did since the event before: pairs whose time of impact it searched for (searches), and predictions
+    /// that it dropped since a body had changed (dropped). Unlike all else they depend on the tiles
+    #[arg(long, requires = "events")]
+    costs: bool,
 }
 
-/// The bodies and kinds that are wanted; all unless some were named.
+/// The bodies and kinds that are wanted; all unless some were named. And what bodies are called.
 pub struct Wanted {
     labels: Option<BTreeSet<String>>,
     kinds: Option<Vec<EventKind>>,
+    /// By label, of those that have one.
+    names: BTreeMap<String, String>,
+}
+
+/// An event that is to be written.
+pub struct Happened<'a> {
+    pub event: &'a Event,
+    /// Labels of its bodies.
+    pub a: &'a str,
+    pub b: Option<&'a str>,
+    pub dt_index: u64,
+    pub cost: Cost,
 }
 
 impl RowArgs {
@@ -68,15 +85,18 @@ impl RowArgs {
         }
         let labels = (!self.bodies.is_empty()).then_some(labels);
         let kinds = (!self.kinds.is_empty()).then_some(kinds);
-        Ok(Wanted { labels, kinds })
+        let mut wanted = Wanted { labels, kinds, names: BTreeMap::new() };
+        wanted.name(&scene.bodies);
+        Ok(wanted)
     }
 
     pub fn states(&self, path: &Path) -> Result<Table, CliError> {
-        Table::create(path, self.style_of(path), self.chosen(state_columns())?)
+        Table::create(path, self.style_of(path), self.chosen(state_columns(), &[])?)
     }
 
     pub fn events(&self, path: &Path) -> Result<Table, CliError> {
-        Table::create(path, self.style_of(path), self.chosen(event_columns())?)
+        let columns = self.chosen(event_columns(), COST_COLUMNS)?;
+        Ok(Table { costs: self.costs, ..Table::create(path, self.style_of(path), columns)? })
     }
 
     /// Refuses what fits no output, before the run.
@@ -85,7 +105,8 @@ impl RowArgs {
         if !self.columns.is_empty() && outputs.clone().any(|path| self.style_of(path) == Style::Jsonl) {
             return Err(CliError::Usage("--columns are those of CSV: add --rows csv".into()));
         }
-        let tables = [(states, state_columns()), (events, event_columns())];
+        let of_events = event_columns().into_iter().chain(COST_COLUMNS).collect();
+        let tables = [(states, state_columns()), (events, of_events)];
         let tables = tables.into_iter().filter(|(path, _)| path.is_some());
         let known: Vec<&str> = tables.flat_map(|(_, columns)| columns).map(|column| column.name).collect();
         match self.columns.iter().find(|name| !known.contains(&name.trim())) {
@@ -101,8 +122,15 @@ impl RowArgs {
         self.style.unwrap_or(if is_csv { Style::Csv } else { Style::Jsonl })
     }
 
-    /// The columns asked for, of those that a table has; all unless some were named.
-    fn chosen(&self, all: Vec<&'static Column>) -> Result<Vec<&'static Column>, CliError> {
+    /// The columns asked for, of those that a table has, and of its costs; all of the table's unless some were named.
+    fn chosen(
+        &self,
+        mut all: Vec<&'static Column>,
+        costs: &'static [Column],
+    ) -> Result<Vec<&'static Column>, CliError> {
+        if !self.columns.is_empty() || self.costs {
+            all.extend(costs);
+        }
         if self.columns.is_empty() {
             return Ok(all);
         }
@@ -118,13 +146,27 @@ impl RowArgs {
 }
 
 impl Wanted {
-    pub fn body(&self, sim: &Simulation, body: BodyRef) -> bool {
-        self.labels.as_ref().is_none_or(|labels| labels.contains(sim.label(body)))
+    /// Takes over what bodies are called.
+    pub fn name<'b>(&mut self, bodies: impl IntoIterator<Item = &'b Body>) {
+        let named = bodies.into_iter().filter_map(|body| Some((body.label.clone(), body.name.clone()?)));
+        self.names.extend(named);
     }
 
-    fn event(&self, sim: &Simulation, event: &Event) -> bool {
-        let kind = self.kinds.as_ref().is_none_or(|kinds| kinds.contains(&event.kind));
-        kind && (self.body(sim, event.a) || event.b.is_some_and(|b| self.body(sim, b)))
+    pub fn body(&self, sim: &Simulation, body: BodyRef) -> bool {
+        self.has(sim.label(body))
+    }
+
+    fn has(&self, label: &str) -> bool {
+        self.labels.as_ref().is_none_or(|labels| labels.contains(label))
+    }
+
+    fn event(&self, happened: &Happened<'_>) -> bool {
+        let kind = self.kinds.as_ref().is_none_or(|kinds| kinds.contains(&happened.event.kind));
+        kind && (self.has(happened.a) || happened.b.is_some_and(|b| self.has(b)))
+    }
+
+    fn who<'a>(&'a self, label: &'a str) -> Who<'a> {
+        Who { label, name: self.names.get(label).map(String::as_str) }
     }
 }
 
@@ -133,6 +175,7 @@ pub struct Table {
     pub sink: LineSink,
     style: Style,
     columns: Vec<&'static Column>,
+    costs: bool,
 }
 
 impl Table {
@@ -142,7 +185,7 @@ impl Table {
             let names: Vec<_> = columns.iter().map(|column| column.name).collect();
             sink.line(&names.join(","))?;
         }
-        Ok(Self { sink, style, columns })
+        Ok(Self { sink, style, columns, costs: false })
     }
 
     /// One row for JSON, one for each body for CSV.
@@ -154,17 +197,13 @@ impl Table {
         row.bodies().try_for_each(|body| self.csv(&body))
     }
 
-    pub fn event(
-        &mut self,
-        sim: &Simulation,
-        event: &Event,
-        dt_index: u64,
-        wanted: &Wanted,
-    ) -> Result<(), CliError> {
-        if !wanted.event(sim, event) {
+    pub fn event(&mut self, happened: &Happened<'_>, wanted: &Wanted) -> Result<(), CliError> {
+        if !wanted.event(happened) {
             return Ok(());
         }
-        let row = EventRow::new(sim, event, dt_index);
+        let bodies = (wanted.who(happened.a), happened.b.map(|b| wanted.who(b)));
+        let cost = (self.costs || self.style == Style::Csv).then_some(happened.cost);
+        let row = EventRow::new(happened.event, bodies, happened.dt_index, cost);
         if self.style == Style::Jsonl { self.sink.row(&row) } else { self.csv(&row) }
     }
 
