@@ -365,6 +365,7 @@ impl App {
                 }
             }
             WindowCommand::Export(format) => self.dialogs.open_export(format),
+            WindowCommand::Settings => self.dialogs.open_settings(&self.session),
             WindowCommand::Help => self.dialogs.open_help(HelpPage::Window),
             WindowCommand::Shortcuts => self.dialogs.open_help(HelpPage::Keys),
             WindowCommand::About => self.dialogs.open_help(HelpPage::About),

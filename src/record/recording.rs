@@ -12,11 +12,14 @@ use super::ticks::{Tick, Ticks};
 use crate::sim::{BodyRef, Event, Piece, SimEdit, Simulation};
 
 /// Memory that a recording may take unless told otherwise, bytes: ten minutes of ten bodies, seconds of ten thousand.
-pub(super) const BUDGET: usize = 1 << 30;
+pub const BUDGET: usize = 1 << 30;
 
 /// Of the budget: what keyframes may take before they are thinned out, and what is dropped when all of it is used.
 const KEYFRAME_SHARE: f64 = 0.25;
 const DROPPED_SHARE: f64 = 0.25;
+
+/// Drops after which nothing of a run is left but its end: a share of 1e-8.
+const MOST_DROPS: usize = 64;
 
 /// Edits made together.
 #[derive(Clone, Debug)]
@@ -165,7 +168,13 @@ impl Recording {
 
     pub(super) fn set_budget(&mut self, bytes: usize) {
         self.budget = bytes;
-        self.stay_within_budget();
+        // One that is much smaller takes several drops.
+        for _ in 0..MOST_DROPS {
+            self.stay_within_budget();
+            if self.bytes() <= bytes {
+                break;
+            }
+        }
     }
 
     /// Thins out the keyframes, then drops the oldest motion and events.
