@@ -346,3 +346,41 @@ fn the_smallest_window_shows_the_errors_whole() {
     let errors = window.harness.get_by_label_contains("Errors: ").rect();
     assert!(whole.contains_rect(errors), "{errors:?}");
 }
+
+/// Symptom: in narrow windows undo, what is added, the time and the goals were not in the tool bar. Expected: a menu has them.
+#[test]
+fn a_narrow_tool_bar_has_the_rest_in_a_menu() {
+    for (width, has_time) in [(800.0, false), (1100.0, true), (1280.0, true)] {
+        let mut window = Window::thesis();
+        window.harness.set_size(vec2(width, 500.0));
+        window.harness.run_steps(4);
+        let time = window.harness.query_by_role_and_label(Role::TextInput, "t");
+        assert_eq!(time.is_some(), has_time, "{width}");
+        assert_eq!(window.has("More"), width < 1200.0, "{width}");
+        for choice in ["Method", "Speed"] {
+            assert!(
+                window.harness.query_by_role_and_label(Role::ComboBox, choice).is_some(),
+                "{width} {choice}"
+            );
+        }
+        if width > 1200.0 {
+            continue;
+        }
+        window.click("More");
+        window.click("Dynamic sphere");
+        assert_eq!(window.scene().bodies.len(), 14, "{width}");
+        window.click("More");
+        window.harness.get_by_label_contains("Undo: ").click();
+        window.harness.run();
+        assert_eq!(window.scene().bodies.len(), 13, "{width}");
+    }
+    let mut window = Window::thesis();
+    window.harness.set_size(vec2(800.0, 500.0));
+    window.harness.run_steps(4);
+    window.click("More");
+    super::gui_timeline::type_time(&mut window, "0.5");
+    assert_eq!(window.frame().time, 0.5);
+    window.click("Run");
+    window.click("For 10 events");
+    assert_eq!(window.frame().event_count, 10);
+}
