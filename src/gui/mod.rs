@@ -25,6 +25,7 @@ mod shortcuts;
 mod start;
 mod status;
 mod steps;
+mod still;
 mod theme;
 mod timeline;
 mod toasts;

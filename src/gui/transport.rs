@@ -6,6 +6,7 @@ use egui::{PopupCloseBehavior, Response, RichText, TextEdit, Ui};
 use super::colors::tones;
 use super::context::{AppContext, Message};
 use super::inspector::number::{Number, number, single};
+use super::still::{self, Still};
 use super::viewport::Layout;
 use super::widgets::{command_button, icon_button, severity_icon};
 use super::{icons, lag, menu, numbers};
@@ -295,8 +296,9 @@ fn state(ui: &mut Ui, context: &AppContext<'_>) {
     let tones = tones(ui);
     let frame = context.session.frame();
     let behind = frame.lag.as_ref().filter(|_| frame.state == RunState::Playing);
+    let still = Still::of(context);
     let (text, color, help) = match frame.state {
-        _ if behind.is_some() => (String::new(), tones.weak, ""),
+        _ if behind.is_some() || still.is_some() => (String::new(), tones.weak, ""),
         RunState::Playing => (
             format!("playing {} ×", numbers::significant(frame.real_speed, 2)),
             tones.good,
@@ -310,7 +312,9 @@ fn state(ui: &mut Ui, context: &AppContext<'_>) {
     if !text.is_empty() {
         ui.label(RichText::new(text).color(color)).on_hover_text(help);
     }
-    if let Some(lag) = behind {
+    if let Some(still) = still {
+        still::show(ui, context, still);
+    } else if let Some(lag) = behind {
         lag::show(ui, context, lag, reachable(context.session.playback().speed() * lag.share));
     }
     if context.session.needs_reset() {

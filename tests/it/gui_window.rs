@@ -384,3 +384,27 @@ fn a_narrow_tool_bar_has_the_rest_in_a_menu() {
     window.click("For 10 events");
     assert_eq!(window.frame().event_count, 10);
 }
+
+/// Symptom: in a new scene without gravity playing showed nothing, without a word. Expected: it says so and offers gravity.
+#[test]
+fn a_run_in_which_nothing_can_move_says_so() {
+    let mut window = Window::empty();
+    window.menu("Add", "Static sphere");
+    window.key(Key::Period);
+    assert!(window.has_containing("nothing moves"), "there is no moving body");
+    window.menu("Add", "Dynamic sphere");
+    window.key(Key::R);
+    assert!(!window.has_containing("nothing moves"), "it has not begun");
+    window.key(Key::Period);
+    window.harness.get_by_label_contains("nothing moves").click();
+    window.harness.run();
+    assert!(window.has("Nothing moves: no gravity, no velocities."));
+    window.click("Add gravity");
+    assert_eq!((window.scene().forces.len(), window.frame().time), (1, 0.0));
+    window.key(Key::Period);
+    assert!(!window.has_containing("nothing moves"));
+    assert!(window.frame().bodies[0].velocity.y < 0.0);
+    let mut window = Window::thesis();
+    window.key(Key::Period);
+    assert!(!window.has_containing("nothing moves"));
+}
