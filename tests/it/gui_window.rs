@@ -408,3 +408,27 @@ fn a_run_in_which_nothing_can_move_says_so() {
     window.key(Key::Period);
     assert!(!window.has_containing("nothing moves"));
 }
+
+/// Symptom: after a step the units of angles and spins were cut off at the edge of the inspector. Cause: the column of what is
+/// now pushed them out.
+#[test]
+fn the_inspector_shows_its_units_whole() {
+    let is_unit = |text: &str| ["m", "rad", "m/s", "rad/s", "kg"].contains(&text) || text.starts_with("= ");
+    for size in [vec2(1280.0, 720.0), vec2(800.0, 500.0)] {
+        let mut window = Window::thesis();
+        window.harness.set_size(size);
+        window.click_role(Role::TreeItem, "5853");
+        (0..3).for_each(|_| window.key(Key::N));
+        window.harness.run_steps(4);
+        let left = window.harness.get_by_label("Inspector").rect().left();
+        let texts = window.harness.query_all_by_role(Role::Label);
+        let rects: Vec<_> = texts
+            .map(|node| (node.rect(), node.accesskit_node().label().or(node.value())))
+            .filter(|(rect, text)| rect.left() > left && text.as_deref().is_some_and(is_unit))
+            .collect();
+        assert!(rects.len() >= if size.y > 600.0 { 12 } else { 3 }, "{rects:?}");
+        for (rect, text) in rects {
+            assert!(rect.right() <= size.x - 8.0, "{text:?} at {rect:?} in {size}");
+        }
+    }
+}
