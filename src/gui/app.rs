@@ -16,6 +16,7 @@ use super::launch::Script;
 use super::ledger::LedgerPanel;
 use super::panels::Contents;
 use super::problems::Problems;
+use super::start::Start;
 use super::status::Pace;
 use super::timeline::{self, Timeline};
 use super::toasts::Toasts;
@@ -23,7 +24,7 @@ use super::transport::Transport;
 use super::tree::Tree;
 use super::viewport::{self, Canvas, Views};
 use super::xml::XmlPane;
-use super::{menu, shortcuts, start, status, theme};
+use super::{menu, shortcuts, status, theme};
 use crate::design::TOOLS;
 use crate::editor::{
     Action, Command, Notice, Outcome, Request, Session, SessionCommand, Storage, Verified, WindowCommand,
@@ -59,7 +60,7 @@ pub struct App {
     pub(super) dialogs: Dialogs,
     toasts: Toasts,
     dock: Dock,
-    start_closed: bool,
+    start: Start,
     /// Whether a text field had the keyboard at the end of the last turn.
     was_typing: bool,
     title: String,
@@ -119,7 +120,7 @@ impl App {
             dialogs: Dialogs::new(parts.files),
             toasts,
             dock: Dock::new(remembered.panels),
-            start_closed: false,
+            start: Start::default(),
             was_typing: false,
             title: String::new(),
             repaints: 0,
@@ -201,7 +202,7 @@ impl App {
         if self.opened != self.session.opened_count() {
             self.opened = self.session.opened_count();
             // the card is for the program's start; who asks for a new scene wants that
-            self.start_closed = true;
+            self.start.close();
             self.views.opened();
             self.tree.opened();
             self.timeline.opened();
@@ -262,8 +263,8 @@ impl App {
         });
         let area = contents.area.unwrap_or_else(|| ctx.content_rect());
         let is_asked = context.session.question().is_some() || self.dialogs.are_open();
-        if !self.start_closed && start::is_wanted(&self.session) && !is_asked {
-            self.start_closed = start::show(&ctx, area, &context);
+        if !is_asked {
+            self.start.show(&ctx, area, &context);
         }
         self.dialogs.show(&ctx, &context);
         self.toasts.show(&ctx);

@@ -20,6 +20,7 @@ mod ledger;
 mod menu;
 mod numbers;
 mod panels;
+mod pictures;
 mod problems;
 mod shortcuts;
 mod start;
