@@ -151,6 +151,7 @@ impl App {
             self.session.perform(Action::EndGesture);
         }
         self.session.poll(Instant::now());
+        self.accuracy.take_outcome();
         self.look_at_scene();
         self.session.show_paths(self.views.wanted_paths());
         self.session.show_crossings(self.timeline.shows_crossings());
@@ -389,11 +390,16 @@ impl App {
         self.session.perform(action)
     }
 
-    /// As the button of the Accuracy panel does.
-    pub(super) fn run_study(&mut self, ctx: &Context) {
+    /// As the button of the Accuracy panel does, which is shown.
+    pub(super) fn run_study(&mut self, ctx: &Context) -> Outcome {
         self.look_at_scene();
-        if let Some(shown) = &self.shown {
-            self.accuracy.start(ctx, shown, self.session.title());
+        self.dock.show_tall(Panel::Accuracy, TALL);
+        let Some(shown) = &self.shown else {
+            return Outcome::Refused("the scene has errors, see Problems".to_owned());
+        };
+        match self.accuracy.start(ctx, shown, self.session.title()) {
+            Ok(()) => Outcome::Done,
+            Err(reason) => Outcome::Refused(reason),
         }
     }
 

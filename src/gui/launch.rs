@@ -368,10 +368,7 @@ impl App {
                 let event = events.get(*index).cloned().ok_or_else(missing)?;
                 self.perform(Action::ShowEvent(Some(event)))
             }
-            Step::Study => {
-                self.run_study(ctx);
-                Outcome::Done
-            }
+            Step::Study => self.run_study(ctx),
         };
         match outcome {
             Outcome::Refused(reason) => Err(reason),
