@@ -432,3 +432,14 @@ fn the_inspector_shows_its_units_whole() {
         }
     }
 }
+
+#[test]
+fn about_says_how_to_report_a_bug() {
+    let mut window = Window::thesis();
+    window.menu("Help", "About PolyScene");
+    for text in [env!("CARGO_PKG_VERSION"), "MIT or Apache-2.0", ".psrec", "Save recording"] {
+        assert!(window.has_containing(text), "{text}");
+    }
+    window.click("Close");
+    assert!(!window.has_containing(".psrec"));
+}
