@@ -47,3 +47,13 @@ for scene in scenes/*.xml; do
   name=$(basename "$scene" .xml)
   "$polyscene" render "$scene" --at "${moment[$name]:-2}" --size 800x500 --force --out "screenshots/scenes/$name.png"
 done
+
+# The card that a window opens with shows these, without what lies at their edges (src/gui/pictures.rs).
+declare -A telling=([bullet]=0.0101 [cradle]=1 [orbit]=5 [pour-5000]=0.6 [pour-1000]=1 [hopper]=1 [masses]=0.4 [galton]=4
+  [galton-rough]=4 [bin]=1 [pyramid-hit]=0.8)
+mkdir -p assets/samples
+for scene in scenes/*.xml; do
+  name=$(basename "$scene" .xml)
+  "$polyscene" render "$scene" --at "${telling[$name]:-2}" --view perspective --overlays none --size 256x160 --zoom 0.3 \
+    --force --out "assets/samples/$name.png"
+done

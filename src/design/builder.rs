@@ -4,13 +4,15 @@ use glam::DVec3;
 
 use super::plan::{Given, Plan};
 use super::turn::facing;
-use crate::scene::{Body, Edit, Force, ForceKind, Motion, Names, NodeKey, Shape};
+use crate::scene::{Body, Edit, Force, ForceKind, Motion, Names, NodeKey, Roughness, Shape};
 
 pub(super) struct Builder {
     names: Names,
     group: Option<String>,
     next_id: i64,
     next_force: i64,
+    /// Coefficient of friction of plates.
+    friction: f64,
     edits: Vec<Edit>,
 }
 
@@ -44,8 +46,14 @@ impl Builder {
             group: None,
             next_id: after(scene.bodies.iter().map(|body| body.id).max()),
             next_force: after(scene.forces.iter().map(|force| force.id).max()),
+            friction: 0.0,
             edits: Vec::new(),
         }
+    }
+
+    /// The plates to come rub with this coefficient.
+    pub fn rubbing(self, friction: f64) -> Self {
+        Self { friction, ..self }
     }
 
     /// For a part: its bodies are listed in a group of this name, or the next free one.
@@ -60,6 +68,7 @@ impl Builder {
         let [half_x, half_y] = plate.half;
         let body = Body {
             bounce: plate.bounce,
+            roughness: Roughness { friction: self.friction, ..Roughness::default() },
             rotation: facing(plate.normal, plate.across),
             ..Body::new(0, plate.middle, Motion::Static, Shape::Plane { half_x, half_y })
         };

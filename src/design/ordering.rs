@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::group::regroup;
+use super::group_order::shift_groups;
 use super::plan::{Given, Plan};
 use crate::scene::{Edit, NodeKey, Scene, Side};
 
@@ -46,15 +47,15 @@ pub fn put_beside(given: &Given<'_>, side: Side, anchor: NodeKey) -> Plan {
     plan
 }
 
-/// Moves what is given up or down by one place, each kind and group by itself and gathered there; no edits where all is at
-/// its end already.
+/// Moves what is given up or down by one place, each kind and group by itself and gathered there, and groups all of which
+/// is given as a whole; no edits where all is at its end already.
 pub fn shift(given: &Given<'_>, side: Side) -> Plan {
     let entries = entries(given.scene);
     let chosen: BTreeSet<NodeKey> = given.keys.iter().copied().collect();
     let is_chosen = |entry: &&Entry| chosen.contains(&entry.key);
     let sections: BTreeSet<Section> =
         entries.iter().filter(is_chosen).map(|entry| entry.section.listed()).collect();
-    let mut edits = Vec::new();
+    let mut edits = shift_groups(given, side);
     for section in sections {
         let rows: Vec<&Entry> = entries.iter().filter(|entry| entry.section.listed() == section).collect();
         let keys: Vec<NodeKey> = rows.iter().copied().filter(is_chosen).map(|entry| entry.key).collect();

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::plan::Given;
-use crate::scene::{Scene, Shape, rotation_matrix};
+use crate::scene::{Body, Scene, Shape, rotation_matrix};
 
 /// How much a level plate may be tilted and still be a floor, rad.
 const LEVEL: f64 = 1e-6;
@@ -27,15 +27,20 @@ pub(super) fn of_map(given: &Given<'_>, share: f64) -> f64 {
 
 /// The height of the highest level plate below a point, or 0.
 pub(super) fn floor_under(scene: &Scene, at: DVec3) -> f64 {
-    let heights = scene.bodies.iter().filter_map(|body| {
-        let Shape::Plane { half_x, half_y } = body.shape else { return None };
+    plate_under(scene, at).map_or(0.0, |plate| plate.position.y)
+}
+
+/// The highest level plate below a point.
+pub(super) fn plate_under(scene: &Scene, at: DVec3) -> Option<&Body> {
+    let is_floor = |body: &&Body| {
+        let Shape::Plane { half_x, half_y } = body.shape else { return false };
         let matrix = rotation_matrix(body.rotation);
         let is_level = (matrix.z_axis.y.abs() - 1.0).abs() < LEVEL;
         let local = matrix.transpose() * (at - body.position);
-        let is_below = local.x.abs() <= half_x && local.y.abs() <= half_y && body.position.y <= at.y;
-        (is_level && is_below).then_some(body.position.y)
-    });
-    heights.fold(None, |best: Option<f64>, y| Some(best.map_or(y, |best| best.max(y)))).unwrap_or(0.0)
+        is_level && local.x.abs() <= half_x && local.y.abs() <= half_y && body.position.y <= at.y
+    };
+    let floors = scene.bodies.iter().filter(is_floor);
+    floors.max_by(|a, b| a.position.y.total_cmp(&b.position.y))
 }
 
 /// Where a part stands by default: in the middle of the map, on the floor.

@@ -24,6 +24,7 @@ pub(super) const PUSH_APART: Tool = Tool {
     group: ToolGroup::Repair,
     help: "Moves overlapping bodies along their shortest ways until they touch; static and locked ones stay",
     inputs: &[],
+    follow: None,
     enabled: |given| {
         if first_overlap(given.scene) { Ok(()) } else { Err("no bodies overlap that may be moved") }
     },
@@ -36,6 +37,7 @@ pub(super) const GROW_MAP: Tool = Tool {
     group: ToolGroup::Repair,
     help: "Enlarges the map by whole tiles until all moving bodies start inside",
     inputs: &[],
+    follow: None,
     enabled: |given| {
         let any = given.scene.bodies.iter().any(|body| is_outside(given.scene, body));
         if any { Ok(()) } else { Err("no moving body starts outside the map") }
@@ -51,6 +53,7 @@ pub(super) const FIT_TILES: Tool = Tool {
     group: ToolGroup::Repair,
     help: "Chooses the number of tiles by the size of the balls; changes the speed, never the result",
     inputs: &[],
+    follow: None,
     enabled: |given| {
         let fits = fitting_tiles(given.scene) == given.scene.map.tiles;
         if fits { Err("the tiles fit") } else { Ok(()) }

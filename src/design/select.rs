@@ -14,6 +14,7 @@ pub(super) const SAME_KIND: Tool = Tool {
     group: ToolGroup::Select,
     help: "Selects all bodies and forces of the kinds that are selected: moving balls, plates, drags",
     inputs: &[],
+    follow: None,
     enabled: with_any,
     plan: |given, _| {
         let kinds: BTreeSet<_> = given.bodies().iter().map(|body| kind(body)).collect();
@@ -28,6 +29,7 @@ pub(super) const SAME_MATERIAL: Tool = Tool {
     group: ToolGroup::Select,
     help: "Selects all bodies with the materials of those that are selected",
     inputs: &[],
+    follow: None,
     enabled: with_body,
     plan: |given, _| {
         let materials: BTreeSet<_> = given.bodies().iter().map(|body| body.material.as_deref()).collect();
@@ -41,6 +43,7 @@ pub(super) const SAME_GROUP: Tool = Tool {
     group: ToolGroup::Select,
     help: "Selects everything in the groups of what is selected",
     inputs: &[],
+    follow: None,
     enabled: |given| {
         let bodies = given.bodies().iter().any(|body| body.group.is_some());
         let forces = given.forces().iter().any(|force| force.group.is_some());
@@ -62,6 +65,7 @@ pub(super) const TOUCHING: Tool = Tool {
     group: ToolGroup::Select,
     help: "Adds to the selection what touches it; again: what touches that",
     inputs: &[],
+    follow: None,
     enabled: with_body,
     plan: |given, _| {
         let bodies = &given.scene.bodies;
@@ -89,6 +93,7 @@ pub(super) const IN_TILE: Tool = Tool {
     group: ToolGroup::Select,
     help: "Selects all bodies whose middles lie in the tiles of those that are selected",
     inputs: &[],
+    follow: None,
     enabled: with_body,
     plan: |given, _| {
         let map = &given.scene.map;

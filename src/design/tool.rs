@@ -39,6 +39,8 @@ pub struct Tool {
     pub help: &'static str,
     /// What it asks for; empty for a tool that works at once.
     pub inputs: &'static [Input],
+    /// Keeps values that say the same in other words consistent, after the one at this index was changed.
+    pub follow: Option<fn(&mut [f64], usize)>,
     /// `Err` says why it cannot be used now.
     pub enabled: fn(&Given<'_>) -> Result<(), &'static str>,
     /// `Err` says why these values make no sense.

@@ -7,6 +7,7 @@ use super::{arrange, parts, repair, select};
 pub const TOOLS: &[Tool] = &[
     parts::ROOM,
     parts::OPEN_BOX,
+    parts::BLOCK,
     parts::TABLE,
     parts::RAMP,
     parts::STAIRS,

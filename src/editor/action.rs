@@ -46,8 +46,8 @@ pub enum Action {
     RemoveBookmark(usize),
     /// Whether frames have the motion that is recorded now.
     ShareMotion(bool),
-    /// Bytes that the recording may take.
-    SetMemory(usize),
+    /// MiB that the recording may take; `None` for the default.
+    SetMemory(Option<f64>),
 
     /// Δt as typed.
     SetDt(String),

@@ -29,7 +29,7 @@ impl Session {
         let (Some(tool), Some(given)) = (TOOLS.get(index), self.given(Eye::default())) else {
             return Outcome::no_scene();
         };
-        match tool.plan(&given, &tool.defaults(&given)) {
+        match tool.plan(&given, &design::free_place(tool, &given, &tool.defaults(&given))) {
             Ok(plan) => self.apply_plan(plan),
             Err(reason) => Outcome::Refused(reason),
         }

@@ -71,7 +71,10 @@ const WORKING: &[CommandInfo] = &[
     )
     .session(SessionCommand::SaveRecording)
     .when(Session::can_reset),
-    row(Menu::File, 3, "quit", "Quit", "Leaves the application; asks first when something is not saved")
+    row(Menu::File, 3, "settings", "Settings…", "How much memory the recording of a run may take")
+        .window(WindowCommand::Settings)
+        .keys(&[Shortcut::ctrl(',')]),
+    row(Menu::File, 4, "quit", "Quit", "Leaves the application; asks first when something is not saved")
         .session(SessionCommand::Quit)
         .keys(&[Shortcut::ctrl('Q')]),
     //

@@ -200,12 +200,6 @@ pub(super) const VIEWING: &[CommandInfo] = &[
         .window(WindowCommand::Palette)
         .icon('🔍')
         .keys(&[Shortcut::ctrl('P')]),
-    row(
-        Menu::Help,
-        1,
-        "about",
-        "About PolyScene",
-        "Shows the version, the licence and where to report a fault",
-    )
-    .window(WindowCommand::About),
+    row(Menu::Help, 1, "about", "About PolyScene", "Shows the version, the licence and how to report a bug")
+        .window(WindowCommand::About),
 ];

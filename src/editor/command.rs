@@ -149,6 +149,8 @@ pub enum WindowCommand {
     Rename,
     /// Opens the dialog that writes the scene for another program; with the n-th of [`crate::export::FORMATS`] chosen.
     Export(Option<usize>),
+    /// Opens the dialog with what the program remembers by choice.
+    Settings,
     Help,
     Shortcuts,
     Palette,

@@ -38,7 +38,7 @@ impl Session {
             Action::RenameBookmark(index, name) => self.rename_bookmark(index, &name),
             Action::RemoveBookmark(index) => self.remove_bookmark(index),
             Action::ShareMotion(wanted) => drop(self.run.send(RunCommand::ShareMotion(wanted))),
-            Action::SetMemory(bytes) => self.set_memory(bytes),
+            Action::SetMemory(mib) => return self.set_memory(mib),
             Action::SetDt(text) => return self.set_dt(&text),
             Action::SetSpeed(speed) => self.set_speed(speed),
             Action::SetMethod(method) => self.set_method(method),
@@ -149,11 +149,15 @@ impl Session {
         Outcome::Done
     }
 
-    /// Bytes that the recording may take.
-    fn set_memory(&mut self, bytes: usize) {
-        self.kept.settings.recording_bytes = Some(bytes);
-        self.store_settings();
-        self.run.set_memory(bytes);
+    fn set_memory(&mut self, mib: Option<f64>) -> Outcome {
+        match self.kept.settings.set_recording_mib(mib) {
+            Ok(bytes) => {
+                self.store_settings();
+                self.run.set_memory(bytes);
+                Outcome::Done
+            }
+            Err(reason) => Outcome::Refused(reason),
+        }
     }
 
     fn set_speed(&mut self, speed: f64) {

@@ -79,7 +79,7 @@ pub use safekeeping::INTERVAL as RECOVERY_INTERVAL;
 pub use samples::{SAMPLES, Sample, SampleGroup};
 pub use selection::{Place, Selection};
 pub use session::Session;
-pub use settings::{EditorSettings, Storage};
+pub use settings::{EditorSettings, RECORDING_MIB, Storage};
 pub use text::DocumentText;
 pub use text_diff::{DiffLine, diff};
 pub use travel::{Bookmark, Travel};

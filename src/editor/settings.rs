@@ -5,10 +5,17 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::path_text;
+use crate::record::DEFAULT_RECORDING_BYTES;
 use crate::scene::write_private;
 
 /// Most recent files remembered: what a menu shows without scrolling.
 const MAX_RECENT: usize = 10;
+
+/// MiB that a person may let a recording take: with less nothing can be gone back to, more no machine has.
+pub const RECORDING_MIB: (u32, u32) = (1, 1 << 20);
+
+/// Bytes of a MiB.
+const MIB: usize = 1 << 20;
 
 /// Folders for what outlives a run. `None` keeps nothing, as tests want it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -57,6 +64,26 @@ pub struct EditorSettings {
 }
 
 impl EditorSettings {
+    /// MiB that the recording of a run may take.
+    pub fn recording_mib(&self) -> f64 {
+        self.recording_bytes.unwrap_or(DEFAULT_RECORDING_BYTES) as f64 / MIB as f64
+    }
+
+    /// Keeps a typed number of MiB, or with `None` the default; gives the bytes, or says what is wrong.
+    pub(super) fn set_recording_mib(&mut self, mib: Option<f64>) -> Result<usize, String> {
+        let (low, high) = RECORDING_MIB;
+        self.recording_bytes = match mib {
+            None => None,
+            Some(mib) if (f64::from(low)..=f64::from(high)).contains(&mib) => {
+                Some((mib * MIB as f64) as usize)
+            }
+            Some(_) => {
+                return Err(format!("The memory of a recording must lie between {low} and {high} MiB"));
+            }
+        };
+        Ok(self.recording_bytes.unwrap_or(DEFAULT_RECORDING_BYTES))
+    }
+
     /// Settings that cannot be read are the defaults: they hold nothing that matters.
     pub(super) fn load(storage: &Storage) -> Self {
         let text = settings_path(storage).and_then(|path| std::fs::read_to_string(path).ok());

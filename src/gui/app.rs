@@ -16,6 +16,7 @@ use super::launch::Script;
 use super::ledger::LedgerPanel;
 use super::panels::Contents;
 use super::problems::Problems;
+use super::start::Start;
 use super::status::Pace;
 use super::timeline::{self, Timeline};
 use super::toasts::Toasts;
@@ -23,7 +24,7 @@ use super::transport::Transport;
 use super::tree::Tree;
 use super::viewport::{self, Canvas, Views};
 use super::xml::XmlPane;
-use super::{menu, shortcuts, start, status, theme};
+use super::{menu, shortcuts, status, theme};
 use crate::design::TOOLS;
 use crate::editor::{
     Action, Command, Notice, Outcome, Request, Session, SessionCommand, Storage, Verified, WindowCommand,
@@ -59,7 +60,7 @@ pub struct App {
     pub(super) dialogs: Dialogs,
     toasts: Toasts,
     dock: Dock,
-    start_closed: bool,
+    start: Start,
     /// Whether a text field had the keyboard at the end of the last turn.
     was_typing: bool,
     title: String,
@@ -119,7 +120,7 @@ impl App {
             dialogs: Dialogs::new(parts.files),
             toasts,
             dock: Dock::new(remembered.panels),
-            start_closed: false,
+            start: Start::default(),
             was_typing: false,
             title: String::new(),
             repaints: 0,
@@ -150,6 +151,7 @@ impl App {
             self.session.perform(Action::EndGesture);
         }
         self.session.poll(Instant::now());
+        self.accuracy.take_outcome();
         self.look_at_scene();
         self.session.show_paths(self.views.wanted_paths());
         self.session.show_crossings(self.timeline.shows_crossings());
@@ -201,7 +203,7 @@ impl App {
         if self.opened != self.session.opened_count() {
             self.opened = self.session.opened_count();
             // the card is for the program's start; who asks for a new scene wants that
-            self.start_closed = true;
+            self.start.close();
             self.views.opened();
             self.tree.opened();
             self.timeline.opened();
@@ -262,8 +264,8 @@ impl App {
         });
         let area = contents.area.unwrap_or_else(|| ctx.content_rect());
         let is_asked = context.session.question().is_some() || self.dialogs.are_open();
-        if !self.start_closed && start::is_wanted(&self.session) && !is_asked {
-            self.start_closed = start::show(&ctx, area, &context);
+        if !is_asked {
+            self.start.show(&ctx, area, &context);
         }
         self.dialogs.show(&ctx, &context);
         self.toasts.show(&ctx);
@@ -365,6 +367,7 @@ impl App {
                 }
             }
             WindowCommand::Export(format) => self.dialogs.open_export(format),
+            WindowCommand::Settings => self.dialogs.open_settings(&self.session),
             WindowCommand::Help => self.dialogs.open_help(HelpPage::Window),
             WindowCommand::Shortcuts => self.dialogs.open_help(HelpPage::Keys),
             WindowCommand::About => self.dialogs.open_help(HelpPage::About),
@@ -387,11 +390,16 @@ impl App {
         self.session.perform(action)
     }
 
-    /// As the button of the Accuracy panel does.
-    pub(super) fn run_study(&mut self, ctx: &Context) {
+    /// As the button of the Accuracy panel does, which is shown.
+    pub(super) fn run_study(&mut self, ctx: &Context) -> Outcome {
         self.look_at_scene();
-        if let Some(shown) = &self.shown {
-            self.accuracy.start(ctx, shown, self.session.title());
+        self.dock.show_tall(Panel::Accuracy, TALL);
+        let Some(shown) = &self.shown else {
+            return Outcome::Refused("the scene has errors, see Problems".to_owned());
+        };
+        match self.accuracy.start(ctx, shown, self.session.title()) {
+            Ok(()) => Outcome::Done,
+            Err(reason) => Outcome::Refused(reason),
         }
     }
 

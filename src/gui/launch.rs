@@ -15,7 +15,7 @@ use super::bench_play::{PlayBench, PlayTimes};
 use super::dialogs::NativeFileDialogs;
 use super::error::GuiError;
 use super::steps::{Step, counted_step};
-use crate::design::TOOLS;
+use crate::design::{TOOLS, free_place, is_place};
 use crate::editor::{Action, Outcome, Storage};
 use crate::record::ThreadRunner;
 use crate::render::{png, write_png};
@@ -368,10 +368,7 @@ impl App {
                 let event = events.get(*index).cloned().ok_or_else(missing)?;
                 self.perform(Action::ShowEvent(Some(event)))
             }
-            Step::Study => {
-                self.run_study(ctx);
-                Outcome::Done
-            }
+            Step::Study => self.run_study(ctx),
         };
         match outcome {
             Outcome::Refused(reason) => Err(reason),
@@ -384,9 +381,14 @@ impl App {
         let tool = TOOLS.get(index).ok_or("there is no such tool")?;
         let given = self.session().given(self.views.eye()).ok_or("there is no scene")?;
         let mut values = tool.defaults(&given);
-        for (input, value) in tool.inputs.iter().zip(&mut values) {
-            let typed = others.iter().find(|(label, _)| label == input.label);
-            *value = typed.map_or(*value, |(_, typed)| *typed);
+        for (label, typed) in others {
+            let at = tool.inputs.iter().position(|input| input.label == label);
+            let (at, value) = at.zip(at.and_then(|at| values.get_mut(at))).ok_or("there is no such input")?;
+            *value = *typed;
+            tool.follow.iter().for_each(|follow| follow(&mut values, at));
+        }
+        if !others.iter().any(|(label, _)| is_place(label)) {
+            values = free_place(tool, &given, &values);
         }
         let plan = tool.plan(&given, &values)?;
         Ok(self.perform(Action::Apply(plan)))

@@ -1,13 +1,15 @@
 //! The tool bar: transport, Δt, speed, undo, and how many views there are.
 
-use egui::{RichText, TextEdit, Ui};
+use egui::containers::menu::{MenuButton, MenuConfig};
+use egui::{PopupCloseBehavior, Response, RichText, TextEdit, Ui};
 
 use super::colors::tones;
 use super::context::{AppContext, Message};
 use super::inspector::number::{Number, number, single};
+use super::still::{self, Still};
 use super::viewport::Layout;
 use super::widgets::{command_button, icon_button, severity_icon};
-use super::{icons, lag, numbers};
+use super::{icons, lag, menu, numbers};
 use crate::editor::{self, Action, Addition, SessionCommand, Shared, TravelCommand, ViewCommand};
 use crate::record::{Goal, RunState};
 use crate::scene::Edit;
@@ -49,10 +51,10 @@ const SPEEDS: [(f64, &str); 9] = [
 /// Room in which everything has its place, points.
 const WIDE: f32 = 1290.0;
 
-/// Below this, points, what the menus Edit and Add have too would lie over the speed and what is said beside it.
+/// Below this, points, undo and what is added would lie over the speed and what is said beside it: the menu More has them.
 const NARROW: f32 = 1220.0;
 
-/// Below this, points, the time is in the status bar alone, and goals are in the menu Simulation.
+/// Below this, points, the menu More has the time and the goals, too, and two choices stand without their names.
 const TIGHT: f32 = 960.0;
 
 /// Keeps what is being typed into Δt and the time.
@@ -83,9 +85,9 @@ impl Transport {
             ui.add_space(6.0);
             self.dt_field(ui, context);
             ui.add_space(6.0);
-            method_menu(ui, context);
+            method_menu(ui, context, !tight);
             ui.add_space(6.0);
-            speed_menu(ui, context);
+            speed_menu(ui, context, !tight);
             if wide {
                 ui.add_space(6.0);
                 time_speed(ui, context);
@@ -97,6 +99,7 @@ impl Transport {
                 snap_button(ui, context, snapping);
                 ui.separator();
                 if narrow {
+                    self.more_menu(ui, context, tight);
                     return;
                 }
                 ADDITIONS.iter().rev().for_each(|command| command_button(ui, context, *command));
@@ -106,6 +109,28 @@ impl Transport {
                 ui.separator();
             });
         });
+    }
+
+    /// What has no room in the bar.
+    fn more_menu(&mut self, ui: &mut Ui, context: &AppContext<'_>, tight: bool) {
+        // a click into the field of the time must not close it
+        let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+        let (menu, _) = MenuButton::new("More").config(config).ui(ui, |ui| {
+            ui.set_min_width(190.0);
+            if tight {
+                ui.horizontal(|ui| self.time_field(ui, context));
+                ui.menu_button("Run", |ui| goals(ui, context));
+                ui.separator();
+            }
+            let commands = [SessionCommand::Undo, SessionCommand::Redo].into_iter().chain(ADDITIONS);
+            for command in commands {
+                editor::info(command).into_iter().for_each(|row| menu::entry(ui, context, row));
+                if command == SessionCommand::Redo {
+                    ui.separator();
+                }
+            }
+        });
+        menu.on_hover_text("What a wider window shows in this bar");
     }
 
     /// The time shown; one that is typed is gone to.
@@ -167,31 +192,33 @@ impl Transport {
 
 /// What running goes on until.
 fn run_menu(ui: &mut Ui, context: &AppContext<'_>) {
-    ui.menu_button("Run", |ui| {
-        for count in [10_u64, 100, 1000] {
-            if ui.button(format!("For {count} events")).clicked() {
-                context.outbox.act(Action::RunUntil(Goal::Events(count)));
-            }
+    ui.menu_button("Run", |ui| goals(ui, context))
+        .response
+        .on_hover_text("Runs as fast as it can until a goal is reached; Space stops it");
+}
+
+fn goals(ui: &mut Ui, context: &AppContext<'_>) {
+    let now = context.session.frame().time;
+    let events = [10_u64, 100, 1000].map(|count| (format!("For {count} events"), Goal::Events(count)));
+    let times = [(1.0, "1 s more"), (10.0, "10 s more"), (60.0, "1 min more")];
+    let times = times.map(|(more, text)| (text.to_owned(), Goal::Time(now + more)));
+    let go = |ui: &mut Ui, text: String, action: Action| {
+        if ui.button(text).clicked() {
+            context.outbox.act(action);
+            ui.close();
         }
-        if ui.button("Until all is at rest").clicked() {
-            context.outbox.command(SessionCommand::Travel(TravelCommand::RunToRest));
-        }
-        ui.separator();
-        let frame = context.session.frame();
-        for (more, text) in [(1.0, "1 s more"), (10.0, "10 s more"), (60.0, "1 min more")] {
-            if ui.button(text).clicked() {
-                context.outbox.act(Action::RunUntil(Goal::Time(frame.time + more)));
-            }
-        }
-    })
-    .response
-    .on_hover_text("Runs as fast as it can until a goal is reached; Space stops it");
+    };
+    events.into_iter().for_each(|(text, goal)| go(ui, text, Action::RunUntil(goal)));
+    let rest = SessionCommand::Travel(TravelCommand::RunToRest);
+    go(ui, "Until all is at rest".to_owned(), Action::Command(rest));
+    ui.separator();
+    times.into_iter().for_each(|(text, goal)| go(ui, text, Action::RunUntil(goal)));
 }
 
 /// How to step. Another method starts again, so the entries say so.
-fn method_menu(ui: &mut Ui, context: &AppContext<'_>) {
+fn method_menu(ui: &mut Ui, context: &AppContext<'_>, is_named: bool) {
     let method = context.session.playback().method();
-    let label = ui.label("Method");
+    let label = is_named.then(|| ui.label("Method"));
     let response = egui::ComboBox::from_id_salt("method")
         .selected_text(method.name())
         .width(64.0)
@@ -203,19 +230,26 @@ fn method_menu(ui: &mut Ui, context: &AppContext<'_>) {
                 }
             }
         })
-        .response
-        .labelled_by(label.id);
-    response.on_hover_text(format!(
+        .response;
+    name_choice(response, "Method", label).on_hover_text(format!(
         "How the simulation is stepped: {}.\nAnother one starts again from t = 0.",
         method.meaning()
     ));
 }
 
-fn speed_menu(ui: &mut Ui, context: &AppContext<'_>) {
+/// A choice is named by the label before it, or where there is no room for one for screen readers alone.
+fn name_choice(choice: Response, name: &str, label: Option<Response>) -> Response {
+    match label {
+        Some(label) => choice.labelled_by(label.id),
+        None => choice.accessible_name(name),
+    }
+}
+
+fn speed_menu(ui: &mut Ui, context: &AppContext<'_>, is_named: bool) {
     let speed = context.session.playback().speed();
     let named = SPEEDS.iter().find(|(value, _)| *value == speed).map(|(_, name)| (*name).to_owned());
     let text = named.unwrap_or_else(|| format!("{} ×", numbers::significant(speed, 3)));
-    let label = ui.label("Speed");
+    let label = is_named.then(|| ui.label("Speed"));
     let response = egui::ComboBox::from_id_salt("speed")
         .selected_text(text)
         .width(68.0)
@@ -226,9 +260,8 @@ fn speed_menu(ui: &mut Ui, context: &AppContext<'_>) {
                 }
             }
         })
-        .response
-        .labelled_by(label.id);
-    response.on_hover_text(
+        .response;
+    name_choice(response, "Speed", label).on_hover_text(
         "Speed of playing, as a multiple of the scene's own time speed. Keys + and -.\n\
          Where the machine cannot keep up, playing becomes slower; Δt stays the same.",
     );
@@ -263,8 +296,9 @@ fn state(ui: &mut Ui, context: &AppContext<'_>) {
     let tones = tones(ui);
     let frame = context.session.frame();
     let behind = frame.lag.as_ref().filter(|_| frame.state == RunState::Playing);
+    let still = Still::of(context);
     let (text, color, help) = match frame.state {
-        _ if behind.is_some() => (String::new(), tones.weak, ""),
+        _ if behind.is_some() || still.is_some() => (String::new(), tones.weak, ""),
         RunState::Playing => (
             format!("playing {} ×", numbers::significant(frame.real_speed, 2)),
             tones.good,
@@ -278,7 +312,9 @@ fn state(ui: &mut Ui, context: &AppContext<'_>) {
     if !text.is_empty() {
         ui.label(RichText::new(text).color(color)).on_hover_text(help);
     }
-    if let Some(lag) = behind {
+    if let Some(still) = still {
+        still::show(ui, context, still);
+    } else if let Some(lag) = behind {
         lag::show(ui, context, lag, reachable(context.session.playback().speed() * lag.share));
     }
     if context.session.needs_reset() {

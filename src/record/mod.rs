@@ -46,6 +46,7 @@ pub use ledger::{EventRow, Ledger, Past};
 pub use limits::{Exceeded, Limits, Watch, advance};
 pub use moment::Moment;
 pub use motion::RecordedMotion;
+pub use recording::BUDGET as DEFAULT_RECORDING_BYTES;
 pub use rows::{COST_COLUMNS, Column, EVENT_COLUMNS, EventLine, Who, cells};
 pub use thread::ThreadRunner;
 pub use verify::{Compared, Rerun, RerunError};

@@ -13,7 +13,7 @@ use super::ticks::{Tick, Ticks};
 use crate::sim::{BodyRef, Event, Piece, SimEdit, Simulation};
 
 /// Memory that a recording may take unless told otherwise, bytes: ten minutes of ten bodies, seconds of ten thousand.
-pub(super) const BUDGET: usize = 1 << 30;
+pub const BUDGET: usize = 1 << 30;
 
 /// Of the budget: what keyframes may take before they are thinned out, and what is dropped when all of it is used.
 const KEYFRAME_SHARE: f64 = 0.25;
@@ -174,9 +174,15 @@ impl Recording {
     }
 
     pub(super) fn set_budget(&mut self, bytes: usize) {
-        (self.budget, self.look_at) = (bytes, bytes);
+        self.budget = bytes;
         self.thin_keyframes();
-        self.stay_within_budget();
+        // One that is much smaller takes several rounds.
+        loop {
+            self.look_at = bytes;
+            if !self.stay_within_budget() || self.bytes() <= bytes {
+                break;
+            }
+        }
     }
 
     fn thin_keyframes(&mut self) {

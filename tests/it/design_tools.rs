@@ -3,7 +3,9 @@
 use std::collections::BTreeSet;
 
 use glam::{DVec3, dvec3};
-use polyscene::design::{self, Extent, Eye, Given, Kind, Plan, TOOLS, Tool, ToolGroup, gap, troubles};
+use polyscene::design::{
+    self, Extent, Eye, Given, Kind, Plan, TOOLS, Tool, ToolGroup, TroubleKind, free_place, gap, troubles,
+};
 use polyscene::scene::{
     Body, Document, Edit, ForceKind, Motion, NodeKey, NumberStyle, Scene, Shape, rotation_matrix,
 };
@@ -64,6 +66,7 @@ fn every_part_stands_by_its_defaults() {
     let counts = [
         ("room", 6),
         ("open_box", 5),
+        ("block", 6),
         ("table", 5),
         ("ramp", 1),
         ("stairs", 10),
@@ -354,4 +357,63 @@ fn a_box_that_is_full_is_left_at_once() {
     assert!(started.elapsed().as_secs_f64() < 10.0, "{:?}", started.elapsed());
     let tiny = [("Smallest radius", 1e-9), ("Largest radius", 1e-9), ("Balls", 10.0)];
     assert_eq!(fill.plan(&given, &values(fill, &given, &tiny)).unwrap().added(), 10);
+}
+
+/// A part at its default place, moved where it is free.
+fn add_beside(document: &Document, id: &str) -> Document {
+    let given = Given { scene: scene(document), keys: &[], eye: Eye::default() };
+    let values = free_place(tool(id), &given, &tool(id).defaults(&given));
+    assert_eq!(values, free_place(tool(id), &given, &tool(id).defaults(&given)), "the same every time");
+    apply(document, &tool(id).plan(&given, &values).unwrap())
+}
+
+/// Every part after every other: nothing overlaps, and what is made of plates stands in no other but in rooms.
+#[test]
+fn parts_made_one_after_another_stand_beside_each_other() {
+    let is_placed = |tool: &&Tool| tool.inputs.iter().any(|input| input.label == "Place x");
+    let parts: Vec<&str> = TOOLS.iter().filter(is_placed).map(|tool| tool.id).collect();
+    assert_eq!(parts.len(), 11);
+    for first in &parts {
+        let one = add_beside(&empty(), first);
+        for second in &parts {
+            let both = add_beside(&one, second);
+            assert!(
+                troubles(scene(&both)).iter().all(|trouble| trouble.kind != TroubleKind::Overlap),
+                "{first}, {second}"
+            );
+            let (old, new) = scene(&both).bodies.split_at(scene(&one).bodies.len());
+            let plates =
+                |bodies: &[Body]| bodies.iter().any(|body| matches!(body.shape, Shape::Plane { .. }));
+            let [old_box, new_box] = [old, new].map(|bodies| Extent::around(bodies).unwrap());
+            let apart = old_box.min.cmpge(new_box.max - 1e-9) | new_box.min.cmpge(old_box.max - 1e-9);
+            assert!(
+                apart.any() || !(plates(old) && plates(new)),
+                "{second} lies in {first}: {old_box:?} {new_box:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn parts_stand_in_rooms_and_balls_in_boxes_and_on_tables() {
+    let middle = |document: &Document, before: &Document| {
+        let new = &scene(document).bodies[scene(before).bodies.len()..];
+        Extent::around(new).unwrap().middle()
+    };
+    let room = use_tool(&empty(), &[], "room", &[]);
+    assert_eq!(middle(&add_beside(&room, "open_box"), &room).x, 5.0);
+    let open_box = add_beside(&room, "open_box");
+    assert_eq!(middle(&add_beside(&open_box, "pyramid"), &open_box).x, 5.0, "in the box");
+    let table = add_beside(&room, "table");
+    let rack = add_beside(&table, "rack");
+    assert_eq!(middle(&rack, &table).with_y(0.0), dvec3(5.0, 0.0, 5.0), "on the table");
+    // a second rack beside the first is still on it, and stands on its bed
+    let another = middle(&add_beside(&rack, "rack"), &rack);
+    assert!(
+        another.distance(middle(&rack, &table)) > 1.0 && another.y == middle(&rack, &table).y,
+        "{another}"
+    );
+    let block = add_beside(&table, "block");
+    let stands = Extent::around(&scene(&block).bodies[scene(&table).bodies.len()..]).unwrap();
+    assert!(stands.min.y.abs() < 1e-9 && stands.min.z > 6.5, "beside the table, on the floor: {stands:?}");
 }

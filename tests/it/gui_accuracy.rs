@@ -57,6 +57,25 @@ fn a_study_runs_beside_the_window_and_shows_its_figures() {
     assert!(window.has("Diagram of energy residual over wall time"));
 }
 
+/// Symptom: a study did not end while another panel lay before that of accuracy, and `--do study` waited for ever.
+#[test]
+fn a_study_ends_behind_another_panel() {
+    let mut window = Window::accuracy("bounce", "1");
+    window.harness.get_by_label("Run study").click();
+    window.harness.step();
+    window.harness.step();
+    window.harness.get_by_label_contains("Events (").click();
+    let since = Instant::now();
+    window.harness.step();
+    while window.harness.query_by_label("Accuracy (running)").is_some() {
+        assert!(since.elapsed() < Duration::from_secs(60), "the study does not end");
+        std::thread::sleep(Duration::from_millis(20));
+        window.harness.step();
+    }
+    window.click("Accuracy");
+    assert!(window.has_containing("over the whole 1.000 s"));
+}
+
 #[test]
 fn figures_of_a_scene_edited_since_say_so() {
     let mut window = Window::accuracy("bounce", "1");

@@ -3,7 +3,7 @@
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use polyscene::design::{TOOLS, gap, troubles};
+use polyscene::design::{Extent, TOOLS, gap, troubles};
 use polyscene::scene::{Document, Motion};
 
 use super::editor_support::SCENE;
@@ -137,6 +137,10 @@ fn a_dialog_says_what_it_will_do_and_why_it_cannot() {
     assert!(!window.has("Create"), "the dialog is gone");
     window.palette("rack of balls");
     window.type_number("Rows", "2");
+    assert!(!window.has_containing("would overlap"), "it stands beside the first");
+    window.type_number("Place x", "5");
+    assert!(window.has_containing("would overlap"), "a place that was typed is kept");
+    window.type_number("Rows", "1");
     assert!(window.has_containing("would overlap"));
     window.key(Key::Escape);
     assert!(!window.has("Create"));
@@ -345,4 +349,42 @@ fn a_group_keeps_its_name_where_the_new_one_is_empty() {
         window.type_text("New name", typed);
         assert!(window.scene().bodies.iter().all(|body| body.group.as_deref() == Some(expected)), "{typed}");
     }
+}
+
+/// Symptom: a part that was made after another lay in it. Expected: it stands beside it, at a place that the dialog shows.
+#[test]
+fn a_part_stands_beside_the_one_before() {
+    let mut window = Window::empty();
+    let place = |window: &Window| {
+        let field = window.harness.get_by_role_and_label(Role::SpinButton, "Place z");
+        field.value().and_then(|text| text.parse::<f64>().ok()).expect("a number")
+    };
+    window.palette("parts: block");
+    assert_eq!(place(&window), 5.0);
+    window.click("Create");
+    window.palette("parts: block");
+    window.type_number("Width x", "3");
+    assert_eq!(place(&window), 7.1, "past the first along z, which is the shorter way");
+    window.type_number("Depth z", "2.4");
+    assert_eq!(place(&window), 7.3, "it makes room for its size");
+    window.click("Create");
+    let front = |body: &polyscene::scene::Body| Extent::of(body).min.z;
+    let second = window.scene().bodies[6..].iter().map(front).fold(f64::INFINITY, f64::min);
+    assert!((second - 6.1).abs() < 1e-9, "{second}");
+    // a ramp is told its length and angle, or its run and rise
+    window.key(Key::Escape);
+    window.palette("parts: ramp");
+    window.type_number("Length", "4");
+    window.type_number("Angle", "30");
+    let shown = |label: &str| {
+        let field = window.harness.get_by_role_and_label(Role::SpinButton, label);
+        field.value().expect("a number")
+    };
+    assert_eq!((shown("Rise y"), shown("Run x")), ("2".into(), "3.4641016".into()));
+    window.type_number("Rise y", "3.4641016");
+    window.type_number("Friction", "0.25");
+    window.click("Create");
+    let ramp = window.scene().bodies.last().expect("a ramp");
+    assert!((Extent::of(ramp).size().y - 3.4641016).abs() < 1e-9);
+    assert_eq!(ramp.roughness.friction, 0.25);
 }

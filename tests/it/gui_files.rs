@@ -20,6 +20,22 @@ fn an_empty_window_offers_samples() {
     assert!(!window.has("Empty scene"));
 }
 
+/// With pictures where there is room for them; in the smallest window all names are in sight.
+#[test]
+fn the_start_card_fits_the_window() {
+    for size in [egui::vec2(1280.0, 720.0), egui::vec2(800.0, 500.0)] {
+        let mut window = Window::empty();
+        window.harness.set_size(size);
+        window.harness.run_steps(6);
+        let whole = egui::Rect::from_min_size(egui::Pos2::ZERO, size);
+        let links: Vec<_> = window.harness.query_all_by_role(Role::Link).map(|node| node.rect()).collect();
+        assert!(links.len() >= 28 && links.iter().all(|rect| whole.contains_rect(*rect)), "{links:?}");
+        assert_eq!(links.iter().all(|rect| rect.height() > 80.0), size.x > 1000.0, "pictures");
+        window.click_role(Role::Link, "Galton's board");
+        assert!(window.harness.state().session().title().contains("galton"));
+    }
+}
+
 #[test]
 fn hard_cases_are_in_a_menu_of_their_own() {
     let mut window = Window::thesis();

@@ -2,7 +2,7 @@
 
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, PointerButton, vec2};
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use super::editor_support::SCENE;
 use super::gui_support::Window;
@@ -130,4 +130,61 @@ fn the_simulation_does_not_notice() {
     for (a, b) in window.frame().bodies.iter().zip(&plain.frame().bodies) {
         assert_eq!((a.key, a.position, a.velocity), (b.key, b.position, b.velocity));
     }
+}
+
+/// The rows of groups, from above.
+fn groups(window: &Window) -> Vec<String> {
+    let rows = window.harness.query_all_by_role(Role::TreeItem);
+    let mut rows: Vec<(f32, String)> = rows
+        .filter_map(|row| Some((row.rect().top(), row.accesskit_node().label()?)))
+        .filter(|(_, label)| ["a", "b", "c", "d"].contains(&label.as_str()))
+        .collect();
+    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+    rows.into_iter().map(|(_, label)| label).collect()
+}
+
+/// Groups stand in the order of the file and are moved with all that is in them: by keys and by mouse, in one step.
+#[test]
+fn groups_are_put_in_another_order() {
+    let mut text = scene();
+    for (id, group) in [("30", "b"), ("7", "a/d"), ("8", "c"), ("9", "b"), ("10", "a")] {
+        let at = text.find(&format!("UserID=\"{id}\"")).unwrap();
+        let at = at + text[at..].find('>').unwrap() + 1;
+        text.insert_str(at, &format!("<?polyscene group=\"{group}\"?>"));
+    }
+    let mut window = Window::bytes(text.as_bytes());
+    assert_eq!(order(&window), [30, 7, 8, 9, 10]);
+    assert_eq!(groups(&window), ["b", "a", "c"]);
+    window.click_role(Role::TreeItem, "c");
+    window.key_with(Modifiers::COMMAND, Key::ArrowUp);
+    assert_eq!(
+        (groups(&window), order(&window)),
+        (["b", "c", "a"].map(String::from).into(), vec![30, 8, 7, 9, 10])
+    );
+    window.key_with(Modifiers::COMMAND, Key::ArrowUp);
+    assert_eq!(groups(&window), ["c", "b", "a"]);
+    window.key_with(Modifiers::COMMAND, Key::ArrowUp);
+    assert!(window.has_containing("It is the first of its kind already"));
+    window.key_with(Modifiers::COMMAND, Key::ArrowDown);
+    window.key_with(Modifiers::COMMAND, Key::ArrowDown);
+    assert_eq!(groups(&window), ["b", "a", "c"]);
+    window.key_with(Modifiers::COMMAND, Key::Z);
+    assert_eq!(groups(&window), ["b", "c", "a"], "one step each");
+
+    drag_row(&mut window, "a", "b", -8.0);
+    assert_eq!(groups(&window), ["a", "b", "c"]);
+    assert_eq!(undo_label(&window), Some("Move 1 group in the tree"));
+    drag_row(&mut window, "a", "c", 8.0);
+    assert_eq!(groups(&window), ["b", "c", "a"]);
+    window.click("Open a");
+    assert_eq!(groups(&window), ["b", "c", "a", "d"]);
+    // beside a group elsewhere: out of its own
+    drag_row(&mut window, "d", "c", -8.0);
+    assert_eq!(groups(&window), ["b", "d", "c", "a"]);
+    assert_eq!(window.body("7").group.as_deref(), Some("d"));
+    window.key_with(Modifiers::COMMAND, Key::Z);
+    assert_eq!(window.body("7").group.as_deref(), Some("a/d"), "both in one step");
+    // in the middle of a row: into that group
+    drag_row(&mut window, "c", "b", 0.0);
+    assert_eq!(window.body("8").group.as_deref(), Some("b/c"));
 }

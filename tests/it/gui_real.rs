@@ -359,6 +359,17 @@ fn a_step_waits_for_the_one_before() {
     assert!(picture.exists());
 }
 
+/// Symptom: `--do study` without `tab:accuracy` before it never ended. Cause: only the panel in sight took what was found.
+#[test]
+fn a_script_waits_for_its_study_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let picture = folder.path().join("window.png");
+    let (scene, name) = (sample_path("bounce"), picture.to_str().unwrap());
+    let (code, said) = scripted(&[scene.to_str().unwrap(), "--do", "study", "--screenshot", name]);
+    assert_eq!(code, Some(0), "{said}");
+    assert!(picture.exists());
+}
+
 /// Symptom: `--do` was documented nowhere. Expected: docs/scripts.md lists every command.
 #[test]
 fn the_frames_of_a_run_that_plays_are_measured() {

@@ -346,3 +346,100 @@ fn the_smallest_window_shows_the_errors_whole() {
     let errors = window.harness.get_by_label_contains("Errors: ").rect();
     assert!(whole.contains_rect(errors), "{errors:?}");
 }
+
+/// Symptom: in narrow windows undo, what is added, the time and the goals were not in the tool bar. Expected: a menu has them.
+#[test]
+fn a_narrow_tool_bar_has_the_rest_in_a_menu() {
+    for (width, has_time) in [(800.0, false), (1100.0, true), (1280.0, true)] {
+        let mut window = Window::thesis();
+        window.harness.set_size(vec2(width, 500.0));
+        window.harness.run_steps(4);
+        let time = window.harness.query_by_role_and_label(Role::TextInput, "t");
+        assert_eq!(time.is_some(), has_time, "{width}");
+        assert_eq!(window.has("More"), width < 1200.0, "{width}");
+        for choice in ["Method", "Speed"] {
+            assert!(
+                window.harness.query_by_role_and_label(Role::ComboBox, choice).is_some(),
+                "{width} {choice}"
+            );
+        }
+        if width > 1200.0 {
+            continue;
+        }
+        window.click("More");
+        window.click("Dynamic sphere");
+        assert_eq!(window.scene().bodies.len(), 14, "{width}");
+        window.click("More");
+        window.harness.get_by_label_contains("Undo: ").click();
+        window.harness.run();
+        assert_eq!(window.scene().bodies.len(), 13, "{width}");
+    }
+    let mut window = Window::thesis();
+    window.harness.set_size(vec2(800.0, 500.0));
+    window.harness.run_steps(4);
+    window.click("More");
+    super::gui_timeline::type_time(&mut window, "0.5");
+    assert_eq!(window.frame().time, 0.5);
+    window.click("Run");
+    window.click("For 10 events");
+    assert_eq!(window.frame().event_count, 10);
+}
+
+/// Symptom: in a new scene without gravity playing showed nothing, without a word. Expected: it says so and offers gravity.
+#[test]
+fn a_run_in_which_nothing_can_move_says_so() {
+    let mut window = Window::empty();
+    window.menu("Add", "Static sphere");
+    window.key(Key::Period);
+    assert!(window.has_containing("nothing moves"), "there is no moving body");
+    window.menu("Add", "Dynamic sphere");
+    window.key(Key::R);
+    assert!(!window.has_containing("nothing moves"), "it has not begun");
+    window.key(Key::Period);
+    window.harness.get_by_label_contains("nothing moves").click();
+    window.harness.run();
+    assert!(window.has("Nothing moves: no gravity, no velocities."));
+    window.click("Add gravity");
+    assert_eq!((window.scene().forces.len(), window.frame().time), (1, 0.0));
+    window.key(Key::Period);
+    assert!(!window.has_containing("nothing moves"));
+    assert!(window.frame().bodies[0].velocity.y < 0.0);
+    let mut window = Window::thesis();
+    window.key(Key::Period);
+    assert!(!window.has_containing("nothing moves"));
+}
+
+/// Symptom: after a step the units of angles and spins were cut off at the edge of the inspector. Cause: the column of what is
+/// now pushed them out.
+#[test]
+fn the_inspector_shows_its_units_whole() {
+    let is_unit = |text: &str| ["m", "rad", "m/s", "rad/s", "kg"].contains(&text) || text.starts_with("= ");
+    for size in [vec2(1280.0, 720.0), vec2(800.0, 500.0)] {
+        let mut window = Window::thesis();
+        window.harness.set_size(size);
+        window.click_role(Role::TreeItem, "5853");
+        (0..3).for_each(|_| window.key(Key::N));
+        window.harness.run_steps(4);
+        let left = window.harness.get_by_label("Inspector").rect().left();
+        let texts = window.harness.query_all_by_role(Role::Label);
+        let rects: Vec<_> = texts
+            .map(|node| (node.rect(), node.accesskit_node().label().or(node.value())))
+            .filter(|(rect, text)| rect.left() > left && text.as_deref().is_some_and(is_unit))
+            .collect();
+        assert!(rects.len() >= if size.y > 600.0 { 12 } else { 3 }, "{rects:?}");
+        for (rect, text) in rects {
+            assert!(rect.right() <= size.x - 8.0, "{text:?} at {rect:?} in {size}");
+        }
+    }
+}
+
+#[test]
+fn about_says_how_to_report_a_bug() {
+    let mut window = Window::thesis();
+    window.menu("Help", "About PolyScene");
+    for text in [env!("CARGO_PKG_VERSION"), "MIT or Apache-2.0", ".psrec", "Save recording"] {
+        assert!(window.has_containing(text), "{text}");
+    }
+    window.click("Close");
+    assert!(!window.has_containing(".psrec"));
+}

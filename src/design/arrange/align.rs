@@ -23,6 +23,7 @@ pub const ALIGN: Tool = Tool {
             default: |_| 1.0,
         },
     ],
+    follow: None,
     enabled: with_several,
     plan: |given, values| {
         let (axis, which) = (values.count("Axis").min(2), values.count("Line up"));
@@ -51,6 +52,7 @@ pub const DISTRIBUTE: Tool = Tool {
             default: |_| 0.0,
         },
     ],
+    follow: None,
     enabled: with_several,
     plan: |given, values| {
         let axis = values.count("Axis").min(2);

@@ -59,6 +59,7 @@ pub const ARRAY: Tool = Tool {
             default: |given| pitch(given, 2),
         },
     ],
+    follow: None,
     enabled: with_bodies,
     plan: |given, values| {
         let counts = ["Count x", "Count y", "Count z"].map(|label| values.count(label).max(1));
@@ -108,6 +109,7 @@ pub const LINE: Tool = Tool {
             default: |_| 0.0,
         },
     ],
+    follow: None,
     enabled: with_bodies,
     plan: |given, values| {
         let count = values.count("Count").max(2);
@@ -160,6 +162,7 @@ pub const CIRCLE: Tool = Tool {
             default: |given| given.scene.map.size.z / 2.0,
         },
     ],
+    follow: None,
     enabled: with_bodies,
     plan: |given, values| {
         let count = values.count("Count").max(2);

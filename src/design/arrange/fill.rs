@@ -78,6 +78,7 @@ pub const FILL: Tool = Tool {
             default: |_| 1.0,
         },
     ],
+    follow: None,
     enabled: |_| Ok(()),
     plan: |given, values| {
         let [small, large] = ["Smallest radius", "Largest radius"].map(|label| values.number(label));

@@ -29,6 +29,7 @@ pub const MIRROR: Tool = Tool {
             default: |_| 1.0,
         },
     ],
+    follow: None,
     enabled: with_bodies,
     plan: |given, values| {
         let axis = axis(values.count("Axis"));

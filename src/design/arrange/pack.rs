@@ -24,6 +24,7 @@ pub const PACK: Tool = Tool {
         kind: Kind::Choice(&["−x", "+x", "−y", "+y", "−z", "+z"]),
         default: |_| 2.0,
     }],
+    follow: None,
     enabled: |given| {
         let any = given.movable().into_iter().any(|body| radius(body).is_some());
         if any { Ok(()) } else { Err("no ball is selected that is not locked") }

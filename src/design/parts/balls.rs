@@ -38,6 +38,7 @@ pub const RACK: Tool = Tool {
         PLACE_Y,
         PLACE_Z,
     ],
+    follow: None,
     enabled: always,
     plan: |given, values| {
         let (rows, radius) = (values.count("Rows"), values.number("Ball radius"));
@@ -93,6 +94,7 @@ pub const CRADLE: Tool = Tool {
         PLACE_Y,
         PLACE_Z,
     ],
+    follow: None,
     enabled: always,
     plan: |given, values| {
         let (count, radius) = (values.count("Balls"), values.number("Ball radius"));
@@ -127,6 +129,7 @@ pub const PYRAMID: Tool = Tool {
         PLACE_Y,
         PLACE_Z,
     ],
+    follow: None,
     enabled: always,
     plan: |given, values| {
         let (layers, radius) = (values.count("Layers"), values.number("Ball radius"));

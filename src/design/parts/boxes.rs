@@ -3,7 +3,8 @@
 use glam::DVec3;
 
 use super::inputs::{
-    BALL_BOUNCE, BALL_MASS, BALL_RADIUS, LENGTH, PLACE_X, PLACE_Y, PLACE_Z, WALL_BOUNCE, always, place,
+    BALL_BOUNCE, BALL_MASS, BALL_RADIUS, FRICTION, LENGTH, PLACE_X, PLACE_Y, PLACE_Z, WALL_BOUNCE, always,
+    place,
 };
 use crate::design::builder::{Ball, Builder, Plate};
 use crate::design::place::of_map;
@@ -46,6 +47,7 @@ pub const ROOM: Tool = Tool {
         },
         WALL_BOUNCE,
     ],
+    follow: None,
     enabled: always,
     plan: |given, values| {
         let size = values.vector(["Width x", "Height y", "Depth z"]);
@@ -88,6 +90,7 @@ pub const OPEN_BOX: Tool = Tool {
         PLACE_Y,
         PLACE_Z,
     ],
+    follow: None,
     enabled: always,
     plan: |given, values| {
         let size = values.vector(["Width x", "Height y", "Depth z"]);
@@ -95,6 +98,63 @@ pub const OPEN_BOX: Tool = Tool {
         let mut builder = Builder::part(given, "box");
         walls(&mut builder, middle, size, values.number("Bounce"), false);
         Ok(builder.finish("Add an open box"))
+    },
+};
+
+pub const BLOCK: Tool = Tool {
+    id: "block",
+    label: "Block…",
+    group: ToolGroup::Part,
+    help: "Adds a static block: six plates whose outer faces bound it",
+    inputs: &[
+        Input {
+            label: "Width x",
+            unit: "m",
+            help: "Outside",
+            kind: LENGTH,
+            default: |given| of_map(given, 0.2),
+        },
+        Input {
+            label: "Height y",
+            unit: "m",
+            help: "Outside",
+            kind: LENGTH,
+            default: |given| of_map(given, 0.1),
+        },
+        Input {
+            label: "Depth z",
+            unit: "m",
+            help: "Outside",
+            kind: LENGTH,
+            default: |given| of_map(given, 0.2),
+        },
+        WALL_BOUNCE,
+        FRICTION,
+        PLACE_X,
+        PLACE_Y,
+        PLACE_Z,
+    ],
+    follow: None,
+    enabled: always,
+    plan: |given, values| {
+        let size = values.vector(["Width x", "Height y", "Depth z"]);
+        let middle = place(values) + DVec3::Y * (size.y / 2.0);
+        let mut builder = Builder::part(given, "block").rubbing(values.number("Friction"));
+        let bounce = values.number("Bounce");
+        let faces = [
+            ("top", DVec3::Y, DVec3::X),
+            ("bottom", DVec3::NEG_Y, DVec3::X),
+            ("side left", DVec3::NEG_X, DVec3::Z),
+            ("side right", DVec3::X, DVec3::Z),
+            ("side back", DVec3::NEG_Z, DVec3::X),
+            ("side front", DVec3::Z, DVec3::X),
+        ];
+        for (name, normal, across) in faces {
+            let half = [across, normal.cross(across)].map(|side| side.abs().dot(size) / 2.0);
+            builder
+                .plate(name, &Plate { middle: middle + normal * size / 2.0, normal, across, half, bounce });
+        }
+        Ok(builder.finish("Add a block"))
     },
 };
 
@@ -125,6 +185,7 @@ pub const CONTAINER: Tool = Tool {
         PLACE_Y,
         PLACE_Z,
     ],
+    follow: None,
     enabled: always,
     plan: |given, values| {
         let (count, row) = (values.count("Balls"), values.count("Balls in a row").max(1));

@@ -56,6 +56,15 @@ pub const WALL_BOUNCE: Input = Input {
     default: |_| 1.0,
 };
 
+pub const FRICTION: Input = Input {
+    label: "Friction",
+    unit: "",
+    help: "Coefficient of friction; a pair uses the geometric mean of both, so against balls with 0 nothing rubs. Above 0 \
+           makes the file Version 1.1",
+    kind: Kind::Number(0.0, 1e3),
+    default: |_| 0.0,
+};
+
 pub fn place(values: &Values<'_>) -> DVec3 {
     values.vector(["Place x", "Place y", "Place z"])
 }

@@ -10,7 +10,7 @@ mod table;
 mod view_plate;
 
 pub(super) use balls::{CRADLE, PYRAMID, RACK};
-pub(super) use boxes::{CONTAINER, OPEN_BOX, ROOM};
+pub(super) use boxes::{BLOCK, CONTAINER, OPEN_BOX, ROOM};
 pub(super) use orbit::ORBIT;
 pub(super) use pegboard::PEGBOARD;
 pub(super) use slopes::{FUNNEL, RAMP, STAIRS};

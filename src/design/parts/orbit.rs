@@ -40,6 +40,7 @@ pub const ORBIT: Tool = Tool {
         BALL_MASS,
         BALL_BOUNCE,
     ],
+    follow: None,
     enabled: always,
     plan: |given, values| {
         let mut builder = Builder::part(given, "orbit");

@@ -47,6 +47,7 @@ pub const PEGBOARD: Tool = Tool {
         PLACE_Y,
         PLACE_Z,
     ],
+    follow: None,
     enabled: always,
     plan: |given, values| {
         let (rows, columns) = (values.count("Rows"), values.count("Pegs in a row"));

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 
-use super::inputs::{LENGTH, PLACE_X, PLACE_Y, PLACE_Z, WALL_BOUNCE, always, place};
+use super::inputs::{FRICTION, LENGTH, PLACE_X, PLACE_Y, PLACE_Z, WALL_BOUNCE, always, place};
 use crate::design::builder::{Builder, Plate};
 use crate::design::place::of_map;
 use crate::design::tool::{Input, Kind, Tool, ToolGroup};
@@ -13,21 +13,38 @@ pub const RAMP: Tool = Tool {
     id: "ramp",
     label: "Ramp…",
     group: ToolGroup::Part,
-    help: "Adds a plate that rises along x",
+    help: "Adds a plate that rises along x: say its length and angle, or its run and rise; each follows the others",
     inputs: &[
+        Input {
+            label: "Length",
+            unit: "m",
+            help: "Along the slope",
+            kind: LENGTH,
+            default: |given| {
+                let (run, rise) = (of_map(given, RUN), of_map(given, RISE));
+                libm::hypot(run, rise)
+            },
+        },
+        Input {
+            label: "Angle",
+            unit: "°",
+            help: "Of the slope to the level",
+            kind: Kind::Number(0.01, 89.99),
+            default: |given| libm::atan2(of_map(given, RISE), of_map(given, RUN)).to_degrees(),
+        },
         Input {
             label: "Run x",
             unit: "m",
             help: "Along the floor",
             kind: LENGTH,
-            default: |given| of_map(given, 0.4),
+            default: |given| of_map(given, RUN),
         },
         Input {
             label: "Rise y",
             unit: "m",
             help: "Height gained",
             kind: LENGTH,
-            default: |given| of_map(given, 0.2),
+            default: |given| of_map(given, RISE),
         },
         Input {
             label: "Width z",
@@ -37,14 +54,16 @@ pub const RAMP: Tool = Tool {
             default: |given| of_map(given, 0.2),
         },
         WALL_BOUNCE,
+        FRICTION,
         PLACE_X,
         PLACE_Y,
         PLACE_Z,
     ],
+    follow: Some(follow_slope),
     enabled: always,
     plan: |given, values| {
         let along = DVec3::new(values.number("Run x"), values.number("Rise y"), 0.0);
-        let mut builder = Builder::single(given);
+        let mut builder = Builder::single(given).rubbing(values.number("Friction"));
         builder.plate(
             "ramp",
             &Plate {
@@ -58,6 +77,25 @@ pub const RAMP: Tool = Tool {
         Ok(builder.finish("Add a ramp"))
     },
 };
+
+/// Of the map's smallest side.
+const RUN: f64 = 0.4;
+const RISE: f64 = 0.2;
+
+/// Length and angle, or run and rise, whichever was changed, say what the others are. They are the first four inputs.
+fn follow_slope(values: &mut [f64], changed: usize) {
+    let [length, angle, run, rise, ..] = values else { return };
+    match changed {
+        0 | 1 => {
+            let (sine, cosine) = libm::sincos(angle.to_radians());
+            (*run, *rise) = (*length * cosine, *length * sine);
+        }
+        2 | 3 => {
+            (*length, *angle) = (libm::hypot(*run, *rise), libm::atan2(*rise, *run).to_degrees());
+        }
+        _ => {}
+    }
+}
 
 pub const STAIRS: Tool = Tool {
     id: "stairs",
@@ -98,6 +136,7 @@ pub const STAIRS: Tool = Tool {
         PLACE_Y,
         PLACE_Z,
     ],
+    follow: None,
     enabled: always,
     plan: |given, values| {
         let steps = values.count("Steps");
@@ -171,6 +210,7 @@ pub const FUNNEL: Tool = Tool {
         Input { help: "Height of the hole", default: |given| super::inputs::raised(given, 0.2), ..PLACE_Y },
         PLACE_Z,
     ],
+    follow: None,
     enabled: always,
     plan: |given, values| {
         let [top, hole, height] = ["Top radius", "Hole radius", "Height y"].map(|label| values.number(label));

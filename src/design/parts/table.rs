@@ -42,6 +42,7 @@ pub const TABLE: Tool = Tool {
         Input { help: "Height of the bed", default: |given| super::inputs::raised(given, 0.1), ..PLACE_Y },
         PLACE_Z,
     ],
+    follow: None,
     enabled: always,
     plan: |given, values| {
         let half =

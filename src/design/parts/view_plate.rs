@@ -27,6 +27,7 @@ pub const VIEW_PLATE: Tool = Tool {
         },
         WALL_BOUNCE,
     ],
+    follow: None,
     enabled: always,
     plan: |given, values| {
         let mut builder = Builder::single(given);

@@ -68,7 +68,6 @@ impl Accuracy {
     }
 
     pub fn show(&mut self, ui: &mut Ui, context: &AppContext<'_>) {
-        self.take_outcome();
         let height = ui.available_height();
         ui.horizontal_top(|ui| {
             ui.allocate_ui_with_layout(
@@ -87,15 +86,17 @@ impl Accuracy {
         });
     }
 
-    /// Starts a study of a scene with what is typed; what is wrong with that is shown already.
-    pub fn start(&mut self, ctx: &Context, shown: &Shown, title: &str) {
-        let Ok(settings) = self.knobs.settings() else { return };
+    /// Starts a study of a scene with what is typed, or says what is wrong with that.
+    pub fn start(&mut self, ctx: &Context, shown: &Shown, title: &str) -> Result<(), String> {
+        let settings = self.knobs.settings().map_err(|error| knobs::complaint(&error))?;
         self.job = Some(Job::start(ctx, shown.scene.clone(), title.to_owned(), settings));
         (self.studied, self.stale) = (Some(shown.scene.clone()), (shown.revision, false));
         (self.report, self.problem) = (None, None);
+        Ok(())
     }
 
-    fn take_outcome(&mut self) {
+    /// Takes what a study has found, in every turn of the window: also while another panel lies before this one.
+    pub fn take_outcome(&mut self) {
         let Some(outcome) = self.job.as_ref().and_then(Job::take) else { return };
         self.job = None;
         self.serial += 1;
@@ -133,7 +134,8 @@ impl Accuracy {
              independent reference. The simulation in the views goes on meanwhile.",
         );
         if let (true, Some(shown)) = (button.clicked(), context.shown) {
-            self.start(ui.ctx(), shown, context.session.title());
+            // Without a refusal nothing is wrong with what is typed.
+            let _ = self.start(ui.ctx(), shown, context.session.title());
         }
         if let Some(refusal) = refusal.or_else(|| self.problem.clone()) {
             ui.horizontal_wrapped(|ui| {

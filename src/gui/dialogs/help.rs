@@ -78,7 +78,8 @@ const GESTURES: [(&str, &str); 16] = [
 pub fn show(ctx: &Context, page: HelpPage) -> bool {
     let mut closed = false;
     let modal = Modal::new(Id::unique("help")).show(ctx, |ui| {
-        ui.set_width(760.0);
+        let wanted: f32 = if page == HelpPage::About { 480.0 } else { 760.0 };
+        ui.set_width(wanted.min(ctx.content_rect().width() - 60.0));
         let height = (ctx.content_rect().height() - 180.0).clamp(200.0, 620.0);
         ui.heading(match page {
             HelpPage::Window => "The window",
@@ -143,12 +144,26 @@ fn keys(ui: &mut Ui) {
 }
 
 fn about(ui: &mut Ui) {
-    ui.label(format!("PolyScene {}", env!("CARGO_PKG_VERSION")));
+    ui.label(RichText::new(format!("PolyScene {}", env!("CARGO_PKG_VERSION"))).strong());
     ui.label(env!("CARGO_PKG_DESCRIPTION"));
     ui.add_space(6.0);
-    ui.label("Licensed under MIT or Apache-2.0, at your choice.");
+    ui.label("Licensed under MIT or Apache-2.0, at your choice. It comes without any warranty.");
+    ui.add_space(6.0);
+    ui.label(RichText::new("To report a bug").strong());
+    let steps = [
+        "Go to the moment at which something is wrong, and mark it with K.",
+        "File, Save recording… writes a .psrec file: the scene, the edits made while it ran, and the marks.",
+        "Send that file with what you saw and what you expected, and with the version above.",
+    ];
+    for (nth, step) in steps.into_iter().enumerate() {
+        ui.label(format!("{}. {step}", nth + 1));
+    }
+    ui.add_space(6.0);
     ui.label(
-        "A fault is best reported as a small scene file with the command that shows it: the same scene \
-         gives the same bits on every machine.",
+        RichText::new(
+            "The same recording gives the same bits on every machine, so others see what you see. Where nothing runs, \
+             a small scene file with the steps that show the bug does as well.",
+        )
+        .weak(),
     );
 }

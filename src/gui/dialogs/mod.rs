@@ -7,6 +7,7 @@ mod palette;
 mod path;
 mod question;
 mod report;
+mod settings;
 mod tool;
 
 use egui::Context;
@@ -14,7 +15,7 @@ use egui::Context;
 use super::accuracy::Export;
 use super::context::{AppContext, Shown};
 use crate::design::Eye;
-use crate::editor::{Action, Request};
+use crate::editor::{Action, Request, Session};
 
 use export::ExportDialog;
 pub use files::{FileAnswer, FileDialogs, FileRequest, NativeFileDialogs, NoFileDialogs};
@@ -22,6 +23,7 @@ pub use help::HelpPage;
 use palette::Palette;
 use path::PathDialog;
 use report::ImportDialog;
+use settings::SettingsDialog;
 use tool::ToolDialog;
 
 /// All dialogs; at most one of them is open beside a question.
@@ -35,6 +37,7 @@ pub struct Dialogs {
     tool: Option<ToolDialog>,
     export: Option<ExportDialog>,
     import: Option<ImportDialog>,
+    settings: Option<SettingsDialog>,
 }
 
 impl Dialogs {
@@ -48,6 +51,7 @@ impl Dialogs {
             tool: None,
             export: None,
             import: None,
+            settings: None,
         }
     }
 
@@ -60,6 +64,7 @@ impl Dialogs {
             || self.tool.is_some()
             || self.export.is_some()
             || self.import.is_some()
+            || self.settings.is_some()
     }
 
     /// Whether a dialog waits for a thread of its own.
@@ -74,6 +79,10 @@ impl Dialogs {
 
     pub fn open_palette(&mut self) {
         self.palette = Some(Palette::default());
+    }
+
+    pub fn open_settings(&mut self, session: &Session) {
+        self.settings = Some(SettingsDialog::new(session));
     }
 
     pub fn open_help(&mut self, page: HelpPage) {
@@ -155,6 +164,11 @@ impl Dialogs {
             && import.show(ctx)
         {
             self.import = None;
+        }
+        if let Some(settings) = &mut self.settings
+            && settings.show(ctx, context)
+        {
+            self.settings = None;
         }
         if let Some(page) = self.help
             && help::show(ctx, page)

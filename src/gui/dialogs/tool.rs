@@ -22,6 +22,10 @@ pub struct ToolDialog {
     eye: Eye,
     /// One for each input; `None` until the scene was seen.
     values: Option<Vec<f64>>,
+    /// Whether a person has said where a part goes; until then it goes where it is free.
+    is_placed: bool,
+    /// What the free place was looked for with last.
+    placed_for: Option<Asked>,
     /// What was asked and what came out, until either changes.
     preview: Option<(Asked, Result<Preview, String>)>,
     /// Whether a field had the keyboard at the end of the last turn.
@@ -32,6 +36,12 @@ pub struct ToolDialog {
 
 /// What a preview depends on.
 type Asked = (u64, u64, Vec<NodeKey>, Vec<u64>);
+
+fn asked(context: &AppContext<'_>, given: &Given<'_>, values: &[f64]) -> Asked {
+    let session = context.session;
+    let bits = values.iter().map(|value| value.to_bits()).collect();
+    (session.opened_count(), session.document_state(), given.keys.to_vec(), bits)
+}
 
 struct Preview {
     plan: Plan,
@@ -48,6 +58,8 @@ impl ToolDialog {
             tool: TOOLS.get(index)?,
             eye,
             values: None,
+            is_placed: false,
+            placed_for: None,
             preview: None,
             was_typing: false,
             previews: 0,
@@ -79,11 +91,18 @@ impl ToolDialog {
                 ui.label(RichText::new(self.tool.help).color(tones(ui).weak));
                 ui.add_space(6.0);
                 Grid::new("tool values").num_columns(3).spacing([8.0, 4.0]).show(ui, |ui| {
-                    for (input, value) in self.tool.inputs.iter().zip(&mut values) {
+                    for (at, input) in self.tool.inputs.iter().enumerate() {
+                        let Some(value) = values.get_mut(at) else { continue };
+                        let before = *value;
                         field(ui, input, value);
+                        if *value != before {
+                            self.is_placed |= design::is_place(input.label);
+                            self.tool.follow.iter().for_each(|follow| follow(&mut values, at));
+                        }
                     }
                 });
                 ui.add_space(6.0);
+                self.place(context, &given, &mut values);
                 self.refresh(context, &given, &values);
                 let plan = self.outcome(ui);
                 ui.add_space(6.0);
@@ -97,11 +116,23 @@ impl ToolDialog {
         !open || decided.is_some()
     }
 
+    /// Looks for a free place, until a person says where the part goes.
+    fn place(&mut self, context: &AppContext<'_>, given: &Given<'_>, values: &mut Vec<f64>) {
+        if self.is_placed || self.placed_for.as_ref() == Some(&asked(context, given, values)) {
+            return;
+        }
+        for (input, value) in self.tool.inputs.iter().zip(values.iter_mut()) {
+            if design::is_place(input.label) {
+                *value = (input.default)(given);
+            }
+        }
+        *values = design::free_place(self.tool, given, values);
+        self.placed_for = Some(asked(context, given, values));
+    }
+
     /// Makes the plan again if what it depends on has changed.
     fn refresh(&mut self, context: &AppContext<'_>, given: &Given<'_>, values: &[f64]) {
-        let session = context.session;
-        let bits = values.iter().map(|value| value.to_bits()).collect();
-        let asked = (session.opened_count(), session.document_state(), given.keys.to_vec(), bits);
+        let asked = asked(context, given, values);
         if self.preview.as_ref().is_none_or(|(of, _)| *of != asked) {
             self.previews += 1;
             let revision = u64::MAX - self.previews;

@@ -14,7 +14,10 @@ use crate::record::BodyFrame;
 use crate::scene::{Body, BodyChange, Edit, NodeKey, Shape};
 
 /// Width of the names of rows, points: the longest of them with its axis.
-const LABEL_WIDTH: f32 = 116.0;
+const LABEL_WIDTH: f32 = 110.0;
+
+/// Digits of what a body does now, so that they fit beside what it starts with; the tooltip has all.
+const NOW_DIGITS: usize = 7;
 
 pub fn kind(body: &Body) -> &'static str {
     match (&body.shape, body.is_dynamic()) {
@@ -40,6 +43,7 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>, shown: &Shown, keys: &[NodeKe
     Grid::new("body values").num_columns(4).spacing([6.0, 3.0]).show(ui, |ui| {
         ui.label("");
         ui.label(RichText::new("at the start").small().color(tones(ui).weak));
+        ui.label("");
         let heading = if now.is_some() { "now" } else { "" };
         ui.label(RichText::new(heading).small().color(tones(ui).weak));
         ui.end_row();
@@ -176,15 +180,15 @@ fn rows(
         let (range, width) = (field.range, WIDTH);
         let spec = Number { name: &name, value, range, speed, width, help, angle, whole: false };
         number(ui, context.outbox, &spec, |typed| field.edit(&shown.scene, keys, axis, typed));
+        ui.label(RichText::new(field.unit).color(tones(ui).weak));
         match field.now.zip(now).and_then(|(get, frame)| get(frame)) {
             Some(vector) => {
                 let value = vector.to_array().get(axis).copied().unwrap_or(0.0);
-                drop(ui.label(mono(significant(value, 8))).on_hover_text(value.to_string()));
+                drop(ui.label(mono(significant(value, NOW_DIGITS))).on_hover_text(value.to_string()));
             }
+            None if angle => drop(ui.label(RichText::new(degrees(value)).color(tones(ui).weak))),
             None => drop(ui.label("")),
         }
-        let unit = if angle { degrees(value) } else { field.unit.to_owned() };
-        ui.label(RichText::new(unit).color(tones(ui).weak));
         ui.end_row();
     }
 }
@@ -202,11 +206,11 @@ pub fn row_label(ui: &mut Ui, label: &str, axis: &str) -> Response {
     .inner
 }
 
-/// The unit of an angle with what it is in degrees.
+/// What an angle is in degrees.
 fn degrees(value: Shared) -> String {
     match value {
-        Shared::Same(radians) => format!("rad = {}°", significant(radians.to_degrees(), 4)),
-        _ => "rad".to_owned(),
+        Shared::Same(radians) => format!("= {}°", significant(radians.to_degrees(), 6)),
+        _ => String::new(),
     }
 }
 

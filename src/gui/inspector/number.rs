@@ -14,7 +14,7 @@ use crate::gui::widgets::mono;
 use crate::scene::Edit;
 
 /// Width of a number, points.
-pub const WIDTH: f32 = 92.0;
+pub const WIDTH: f32 = 86.0;
 
 /// Told where a formula draws random numbers.
 const SEED: &str = "Drawn with seed 1 unless you gave one: rand(1, 2, 7) draws others";

@@ -7,10 +7,11 @@ use egui::{WidgetInfo, pos2, vec2};
 
 use super::axis::Axis;
 use super::bookmarks;
-use crate::editor::{Action, SessionCommand};
+use crate::editor::{Action, SessionCommand, WindowCommand};
 use crate::gui::colors::{Tones, color32, tones};
 use crate::gui::context::AppContext;
 use crate::gui::numbers::significant;
+use crate::gui::widgets::name_button;
 use crate::record::Frame;
 
 pub(super) const HEIGHT: f32 = 38.0;
@@ -51,7 +52,7 @@ impl RunLine {
         };
         let axis = self.axis(rect, whole);
         draw(ui, context, &axis, tones);
-        write_memory(ui, rect, frame, tones);
+        memory(ui, context, rect, tones);
         self.bookmarks.show(ui, context, &axis);
         self.answer(context, &response, &axis, whole, ui);
         if let Some(at) = response.hover_pos().filter(|at| axis.line.x_range().contains(at.x)) {
@@ -244,22 +245,37 @@ fn dropped(painter: &egui::Painter, frame: &Frame, axis: &Axis, tones: Tones) {
     }
 }
 
-/// How much memory the recording takes.
-fn write_memory(ui: &Ui, rect: Rect, frame: &Frame, tones: Tones) {
+/// How much memory the recording takes of what it may, and what was dropped to stay within it; a click opens the settings.
+fn memory(ui: &Ui, context: &AppContext<'_>, rect: Rect, tones: Tones) {
+    let frame = context.session.frame();
     let mib = |bytes: usize| bytes as f64 / f64::from(1 << 20);
     let (used, budget) = (mib(frame.recorded.bytes), mib(frame.recorded.budget));
-    let text = format!("{} of {} MiB", significant(used, 2), significant(budget, 4));
-    let color = if used > 0.8 * budget { tones.warning } else { tones.weak };
-    let at = pos2(rect.right() - 8.0, rect.top() + 10.0);
-    ui.painter().text(at, Align2::RIGHT_CENTER, text, FontId::proportional(10.0), color);
+    let memory = format!("{} of {} MiB", significant(used, 2), significant(budget, 4));
     let events = format!("{} events", crate::gui::numbers::count(frame.ledger.len() as u64));
-    ui.painter().text(
-        at + vec2(0.0, 13.0),
-        Align2::RIGHT_CENTER,
-        events,
-        FontId::proportional(10.0),
-        tones.weak,
-    );
+    let has_dropped = frame.recorded.from > 0.0;
+    let kept = if has_dropped {
+        format!("kept from {} s", significant(frame.recorded.from, 4))
+    } else {
+        String::new()
+    };
+    let color = if used > 0.8 * budget { tones.warning } else { tones.weak };
+    let area = Rect::from_min_max(pos2(rect.right() - RIGHT + 4.0, rect.top()), rect.max);
+    let response = ui.interact(area, ui.scope_id().with("memory"), Sense::click());
+    let name = format!("Recording: {memory}, {events}{}{kept}", if has_dropped { ", " } else { "" });
+    name_button(ui, &response, &name, false);
+    if response.hovered() || response.has_focus() {
+        ui.painter().rect_filled(area.shrink(1.0), 3.0, ui.visuals().widgets.hovered.weak_bg_fill);
+    }
+    let lines = [(memory, color), (events, tones.weak), (kept, tones.warning)];
+    for (nth, (text, color)) in lines.into_iter().enumerate() {
+        let at = pos2(rect.right() - 8.0, rect.top() + 8.0 + 11.0 * nth as f32);
+        ui.painter().text(at, Align2::RIGHT_CENTER, text, FontId::proportional(10.0), color);
+    }
+    let help = "Memory that the recording of the run takes, of what it may. When that is used up, it keeps fewer states \
+                to go on from; then its oldest part is dropped. A click opens the settings, where it is set.";
+    if response.on_hover_text(help).clicked() {
+        context.outbox.command(WindowCommand::Settings);
+    }
 }
 
 fn describe(frame: &Frame, axis: &Axis, at: Pos2) -> String {

@@ -1,6 +1,6 @@
 //! Rows of the tree that are dragged: between others, into groups, and out of them.
 
-use egui::{Align2, FontId, Id, LayerId, Order, Rect, Response, Stroke, StrokeKind, Ui, vec2};
+use egui::{Align2, DragAndDrop, FontId, Id, LayerId, Order, Rect, Response, Stroke, StrokeKind, Ui, vec2};
 
 use super::Tree;
 use crate::design::{self, Eye, Given, Plan};
@@ -23,6 +23,8 @@ pub(super) enum Target {
     Group(Option<String>),
     /// Before or after a row, and into its group.
     Beside { key: NodeKey, side: Side, group: Option<String> },
+    /// Before or after a group, for another group.
+    BesideGroup { path: String, side: Side },
 }
 
 impl Dragged {
@@ -40,6 +42,12 @@ impl Dragged {
             (Self::Things(keys), Target::Group(group)) => design::regroup(&given(keys), group.as_deref()),
             (Self::Things(keys), Target::Beside { key, side, .. }) => {
                 design::put_beside(&given(keys), *side, *key)
+            }
+            (Self::Things(keys), Target::BesideGroup { path, .. }) => {
+                design::regroup(&given(keys), Some(path))
+            }
+            (Self::Group(from), Target::BesideGroup { path, side }) => {
+                design::put_group_beside(&given(&[]), from, *side, path)
             }
             (Self::Group(path), _) => {
                 let group = target.group();
@@ -69,8 +77,26 @@ impl Target {
         Self::Beside { key, side, group }
     }
 
+    /// A group's row: a group that is dragged goes before or after it at its edges; all else goes into it.
+    pub fn of_group(ui: &Ui, path: &str, row: Rect) -> Self {
+        const EDGE: f32 = 0.3;
+        let is_group = DragAndDrop::payload::<Dragged>(ui.ctx())
+            .is_some_and(|dragged| matches!(*dragged, Dragged::Group(_)));
+        let at = ui.input(|input| input.pointer.interact_pos()).filter(|_| is_group);
+        let side = at.and_then(|at| match (at.y - row.top()) / row.height() {
+            share if share < EDGE => Some(Side::Before),
+            share if share > 1.0 - EDGE => Some(Side::After),
+            _ => None,
+        });
+        match side {
+            Some(side) => Self::BesideGroup { path: path.to_owned(), side },
+            None => Self::Group(Some(path.to_owned())),
+        }
+    }
+
     fn group(&self) -> Option<&str> {
         match self {
+            Self::BesideGroup { path, .. } => path.rsplit_once('/').map(|(parent, _)| parent),
             Self::Group(group) | Self::Beside { group, .. } => group.as_deref(),
         }
     }
@@ -81,7 +107,7 @@ impl Target {
         let is_order = |edit: &Edit| matches!(edit, Edit::Reorder { .. });
         let pen = Stroke::new(1.5, tones(ui).accent);
         match self {
-            Self::Beside { side, .. } if edits.iter().any(is_order) => {
+            Self::Beside { side, .. } | Self::BesideGroup { side, .. } if edits.iter().any(is_order) => {
                 let y = if *side == Side::Before { row.top() } else { row.bottom() };
                 ui.painter().hline(row.x_range(), y, Stroke::new(2.5, pen.color));
             }

@@ -10,6 +10,7 @@ use super::rows::{
 };
 use super::signs::Chip;
 use super::{Renamed, Tree};
+use crate::design;
 use crate::editor::Action;
 use crate::gui::context::{AppContext, Message, Shown};
 use crate::gui::{numbers, widgets};
@@ -77,7 +78,7 @@ pub fn collect(
         }
     }
     let mut rows = Vec::new();
-    for (path, content) in &groups {
+    for (path, content) in in_order(scene, &groups) {
         let is_open = |path: &[&str]| filtered || open.contains(&path.join("/"));
         let found_below = || {
             groups
@@ -102,6 +103,20 @@ pub fn collect(
         }
     }
     rows
+}
+
+/// Groups beside each other in the order of the file, each with those inside it behind it.
+fn in_order<'a, 'b>(
+    scene: &Scene,
+    groups: &'b BTreeMap<Vec<&'a str>, Content>,
+) -> Vec<(&'b Vec<&'a str>, &'b Content)> {
+    let ranks = design::group_ranks(scene);
+    let mut ordered: Vec<_> = groups.iter().collect();
+    ordered.sort_by_cached_key(|(path, _)| {
+        let rank = |depth: usize| ranks.get(path[..depth].join("/").as_str()).copied();
+        (1..=path.len()).map(|depth| (rank(depth), path[depth - 1].to_owned())).collect::<Vec<_>>()
+    });
+    ordered
 }
 
 impl Tree {
@@ -153,7 +168,7 @@ impl Tree {
         }
         response.context_menu(|ui| super::rows::context_menu(ui, context));
         response.dnd_set_drag_payload(Dragged::Group(named.path.clone()));
-        self.take_drop(ui, context, &response, &Target::Group(Some(named.path.clone())));
+        self.take_drop(ui, context, &response, &Target::of_group(ui, &named.path, rect));
         if toggle.clicked() {
             if !self.open_named.remove(&named.path) {
                 self.open_named.insert(named.path.clone());
