@@ -42,7 +42,6 @@ done
 different=0 slow=0
 for scene in "${scenes[@]}"; do
   for method in exact thesis fixed; do
-    rm -f "$work"/base.* "$work"/new.*
     record "$base" "$scene" "$method" base "$limit"
     record "$new" "$scene" "$method" new "$limit"
     case "$(cat "$work/base.status") $(cat "$work/new.status")" in
