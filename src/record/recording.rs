@@ -176,8 +176,8 @@ impl Recording {
     pub(super) fn set_budget(&mut self, bytes: usize) {
         self.budget = bytes;
         self.thin_keyframes();
-        // One that is much smaller takes several rounds.
-        loop {
+        // One that is much smaller takes several rounds; what cannot be dropped may take more than it for ever.
+        for _ in 0..MOST_DROPS {
             self.look_at = bytes;
             if !self.stay_within_budget() || self.bytes() <= bytes {
                 break;
