@@ -234,6 +234,9 @@ impl App {
     /// At the end of every turn of the window.
     pub(super) fn run_script(&mut self, ctx: &Context) {
         let Some(mut script) = self.script.take() else { return };
+        if script.screenshot.is_some() {
+            self.views.canvas.draw_in_full();
+        }
         if self.repaints == 1 {
             let first_frame_s = script.called.elapsed().as_secs_f64();
             script.note(|report| report.first_frame_s = first_frame_s);

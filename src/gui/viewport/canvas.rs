@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use eframe::egui_glow;
 use egui::{Align2, FontId, Rect, Ui, vec2};
 
-use super::pace::Pace;
+use super::drafts::Drafts;
 use crate::gui::colors::color32;
 use crate::render::{PixelRect, Quality, Renderer, Showing};
 use crate::view::{Color, DrawList, Label};
@@ -21,7 +21,7 @@ pub struct Canvas {
 struct Gpu {
     renderer: Mutex<Renderer>,
     failure: Mutex<Option<String>>,
-    pace: Mutex<Pace>,
+    drafts: Mutex<Drafts>,
     redraws: AtomicU64,
 }
 
@@ -35,7 +35,7 @@ impl Canvas {
                 let gpu = Gpu {
                     renderer: Mutex::new(renderer),
                     failure: Mutex::new(None),
-                    pace: Mutex::default(),
+                    drafts: Mutex::default(),
                     redraws: AtomicU64::new(0),
                 };
                 (Self { gpu: Some(Arc::new(gpu)) }, None)
@@ -47,9 +47,16 @@ impl Canvas {
         self.gpu.as_ref().map_or(0, |gpu| gpu.redraws.load(Ordering::Relaxed))
     }
 
+    /// Draws every picture in full from now on.
+    pub fn draw_in_full(&self) {
+        if let Some(gpu) = &self.gpu {
+            gpu.drafts().in_full = true;
+        }
+    }
+
     /// Whether one of the views that are shown is a draft yet.
     pub fn has_drafts(&self, is_shown: impl Fn(usize) -> bool) -> bool {
-        self.gpu.as_ref().is_some_and(|gpu| gpu.pace().has_drafts(is_shown))
+        self.gpu.as_ref().is_some_and(|gpu| gpu.drafts().has_drafts(is_shown))
     }
 
     /// Puts a view's picture and labels at `rect`. `view` distinguishes the views.
@@ -58,7 +65,7 @@ impl Canvas {
         let [top, _] = list.background;
         painter.rect_filled(rect, 0.0, color32(top));
         if let Some(gpu) = &self.gpu {
-            let (quality, again_s) = gpu.pace().quality(view, list.revision, ui.input(|input| input.time));
+            let (quality, again_s) = gpu.drafts().quality(view, list.revision, ui.input(|input| input.time));
             if let Some(again_s) = again_s {
                 ui.ctx().request_repaint_after(Duration::from_secs_f64(again_s));
             }
@@ -85,8 +92,8 @@ impl Canvas {
 }
 
 impl Gpu {
-    fn pace(&self) -> MutexGuard<'_, Pace> {
-        self.pace.lock().unwrap_or_else(PoisonError::into_inner)
+    fn drafts(&self) -> MutexGuard<'_, Drafts> {
+        self.drafts.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn paint(&self, (view, quality): (usize, Quality), list: &DrawList, info: &egui::PaintCallbackInfo) {
@@ -97,7 +104,7 @@ impl Gpu {
         match renderer.paint(view, list, Showing { rect, clip, quality }) {
             Ok(false) => {}
             Ok(true) => {
-                self.pace().note(view, quality, begun.elapsed().as_secs_f64());
+                self.drafts().note(view, quality, begun.elapsed().as_secs_f64());
                 self.redraws.fetch_add(1, Ordering::Relaxed);
             }
             Err(error) => {

@@ -3,12 +3,12 @@
 mod canvas;
 mod company;
 mod corner;
+mod drafts;
 mod flying;
 mod gestures;
 mod gizmo;
 mod linking;
 mod manipulate;
-mod pace;
 mod pane;
 mod rubber;
 mod turns;
@@ -83,7 +83,7 @@ pub struct Views {
     pivot: Pivot,
     /// Whether handles lie along the axes of the body, not of the world.
     pub local_axes: bool,
-    canvas: Canvas,
+    pub canvas: Canvas,
     start: StartFrame,
     turns: Turns,
 }

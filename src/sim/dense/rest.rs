@@ -150,7 +150,7 @@ mod tests {
     fn what_lies_still_does_not_drift_however_long_its_steps_are() {
         let gravity = DVec3::new(0.0, -9.81, 0.0);
         for halvings in 0..5 {
-            let h = 2.0_f64.powi(-10 - halvings);
+            let h = 1.0 / 1024.0 / f64::from(1 << halvings);
             let step = Segment::ballistic(3.0, DVec3::ONE, -0.5 * h * gravity, gravity);
             assert_eq!(drift(&step, 3.0 + h), DVec3::ZERO);
         }

@@ -13,8 +13,10 @@ const REST_S: f64 = 0.15;
 
 /// What is known of the views drawn so far.
 #[derive(Default)]
-pub(super) struct Pace {
+pub(super) struct Drafts {
     views: BTreeMap<usize, Drawn>,
+    /// Whether there are no drafts: for pictures of the window.
+    pub in_full: bool,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -28,7 +30,7 @@ struct Drawn {
     is_full: bool,
 }
 
-impl Pace {
+impl Drafts {
     /// How to draw a view's picture of that revision at a time, s; with a draft, in how many seconds to look again.
     pub fn quality(&mut self, view: usize, revision: u64, now_s: f64) -> (Quality, Option<f64>) {
         let drawn = self.views.entry(view).or_default();
@@ -36,7 +38,7 @@ impl Pace {
             *drawn = Drawn { revision, since_s: now_s, is_full: false, ..*drawn };
         }
         let left = REST_S - (now_s - drawn.since_s);
-        if drawn.is_full || drawn.full_s <= SLOW_S || left <= 0.0 {
+        if self.in_full || drawn.is_full || drawn.full_s <= SLOW_S || left <= 0.0 {
             return (Quality::Full, None);
         }
         (Quality::Draft, Some(left))
@@ -53,7 +55,7 @@ impl Pace {
     /// Whether one of the views is still to be drawn in full.
     pub fn has_drafts(&self, is_shown: impl Fn(usize) -> bool) -> bool {
         let waits = |drawn: &Drawn| !drawn.is_full && drawn.full_s > SLOW_S;
-        self.views.iter().any(|(view, drawn)| is_shown(*view) && waits(drawn))
+        !self.in_full && self.views.iter().any(|(view, drawn)| is_shown(*view) && waits(drawn))
     }
 }
 
@@ -63,41 +65,49 @@ mod tests {
 
     #[test]
     fn what_is_drawn_quickly_is_drawn_in_full() {
-        let mut pace = Pace::default();
+        let mut drafts = Drafts::default();
         for revision in 1..9 {
-            assert_eq!(pace.quality(0, revision, 0.02 * revision as f64), (Quality::Full, None));
-            pace.note(0, Quality::Full, 0.002);
-            assert!(!pace.has_drafts(|_| true));
+            assert_eq!(drafts.quality(0, revision, 0.02 * revision as f64), (Quality::Full, None));
+            drafts.note(0, Quality::Full, 0.002);
+            assert!(!drafts.has_drafts(|_| true));
         }
     }
 
     #[test]
     fn what_takes_long_is_a_draft_until_it_rests() {
-        let mut pace = Pace::default();
-        assert_eq!(pace.quality(0, 1, 0.0).0, Quality::Full);
-        pace.note(0, Quality::Full, 0.2);
-        assert_eq!(pace.quality(0, 1, 0.1), (Quality::Full, None), "it is there");
+        let mut drafts = Drafts::default();
+        assert_eq!(drafts.quality(0, 1, 0.0).0, Quality::Full);
+        drafts.note(0, Quality::Full, 0.2);
+        assert_eq!(drafts.quality(0, 1, 0.1), (Quality::Full, None), "it is there");
         for (revision, now_s) in [(2, 1.0), (3, 1.05), (3, 1.15)] {
-            let (quality, again_s) = pace.quality(0, revision, now_s);
+            let (quality, again_s) = drafts.quality(0, revision, now_s);
             assert_eq!(quality, Quality::Draft);
             assert!(again_s.unwrap() <= REST_S);
-            pace.note(0, quality, 0.03);
-            assert!(pace.has_drafts(|view| view == 0) && !pace.has_drafts(|view| view == 1));
+            drafts.note(0, quality, 0.03);
+            assert!(drafts.has_drafts(|view| view == 0) && !drafts.has_drafts(|view| view == 1));
         }
-        assert_eq!(pace.quality(0, 3, 1.3), (Quality::Full, None));
-        pace.note(0, Quality::Full, 0.2);
-        assert!(!pace.has_drafts(|_| true));
-        assert_eq!(pace.quality(0, 3, 1.31).0, Quality::Full);
+        assert_eq!(drafts.quality(0, 3, 1.3), (Quality::Full, None));
+        drafts.note(0, Quality::Full, 0.2);
+        assert!(!drafts.has_drafts(|_| true));
+        assert_eq!(drafts.quality(0, 3, 1.31).0, Quality::Full);
+    }
+
+    #[test]
+    fn a_picture_of_the_window_has_no_drafts() {
+        let mut drafts = Drafts { in_full: true, ..Drafts::default() };
+        drafts.note(0, Quality::Full, 0.2);
+        assert_eq!(drafts.quality(0, 1, 1.0), (Quality::Full, None));
+        assert!(!drafts.has_drafts(|_| true));
     }
 
     /// The next scene may be a small one.
     #[test]
     fn what_became_quick_is_drawn_in_full_again() {
-        let mut pace = Pace::default();
-        pace.note(0, Quality::Full, 0.2);
-        assert_eq!(pace.quality(0, 1, 1.0).0, Quality::Draft);
-        assert_eq!(pace.quality(0, 1, 1.2).0, Quality::Full);
-        pace.note(0, Quality::Full, 0.001);
-        assert_eq!(pace.quality(0, 2, 1.3).0, Quality::Full);
+        let mut drafts = Drafts::default();
+        drafts.note(0, Quality::Full, 0.2);
+        assert_eq!(drafts.quality(0, 1, 1.0).0, Quality::Draft);
+        assert_eq!(drafts.quality(0, 1, 1.2).0, Quality::Full);
+        drafts.note(0, Quality::Full, 0.001);
+        assert_eq!(drafts.quality(0, 2, 1.3).0, Quality::Full);
     }
 }
