@@ -234,7 +234,7 @@ impl App {
     /// At the end of every turn of the window.
     pub(super) fn run_script(&mut self, ctx: &Context) {
         let Some(mut script) = self.script.take() else { return };
-        if script.screenshot.is_some() {
+        if script.bench.is_none() && script.edits.is_none() && script.play.is_none() {
             self.views.canvas.draw_in_full();
         }
         if self.repaints == 1 {

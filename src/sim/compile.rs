@@ -130,6 +130,11 @@ fn check_numbers(body: &scene::Body) -> Result<(), Diagnostic> {
     if !body.spin.is_finite() {
         return wrong("its angular velocity", "give finite numbers");
     }
+    if let (Motion::Dynamic { mass, .. }, Shape::Sphere { radius }) = (&body.motion, &body.shape)
+        && !(mass * (radius * body.spin).length_squared()).is_finite()
+    {
+        return wrong("its angular velocity", "give one whose energy is a number");
+    }
     if let Motion::Dynamic { mass, velocity } = body.motion
         && !(mass.is_finite() && mass > 0.0 && velocity.is_finite())
     {

@@ -4,7 +4,7 @@ use super::capture::{free_unheld, is_caught};
 use super::close_pass::{capture, pass_core};
 use super::dense::{self, Dense, Role};
 use super::event::EventKind;
-use super::fault::Fault;
+use super::fault::{Fault, fault};
 use super::geometry::{contact_distance, gap_of, larger_radius};
 use super::impact;
 use super::island::part;
@@ -36,7 +36,8 @@ pub(super) fn advance(model: &Model, state: &mut State) -> Result<bool, Fault> {
     state.reached = next.time;
     match next.kind {
         Kind::SegmentEnd => go_on(model, state, next.a, next.time)?,
-        Kind::LeaveTiles => reregister(model, state, next.a, next.time),
+        Kind::LeaveTiles => reregister(model, state, next.a, next.time)
+            .map_err(|error| fault(model, next.a, next.time, error))?,
         Kind::CorePass => pass_core(model, state, &next)?,
         Kind::Settled => settled(model, state, &next),
         Kind::ContactEnd => leave_contact(model, state, &next)?,

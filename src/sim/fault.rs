@@ -49,6 +49,11 @@ pub(super) fn fault(model: &Model, body: u32, time: f64, error: SegmentError) ->
                 "body {name}: its centre lies on a point attractor, where the force has no value; move one of them by more than the core radius"
             )
         }
+        SegmentError::TooFast => {
+            format!(
+                "body {name}: it is so fast that it passes a tile in less time than can be told from none; look for bounces above 1 and at its forces and start"
+            )
+        }
         SegmentError::Stalled => {
             format!(
                 "body {name}: the integrator's step has shrunk to nothing; a force is singular or not smooth there"

@@ -7,6 +7,7 @@ use super::geometry::{contact_distance, gap_of};
 use super::method::Method;
 use super::model::Model;
 use super::pair::Pair;
+use super::predict::touch_tolerance;
 use super::report::Tiling;
 use super::state::State;
 use crate::scene::{Diagnostic, NodeKey, Severity};
@@ -26,6 +27,7 @@ pub(super) fn worst_overlap(model: &Model, state: &State, time: f64) -> f64 {
 pub(super) fn start_warnings(model: &Model, state: &State) -> Result<Vec<Diagnostic>, Diagnostic> {
     let mut warnings = overlap_warnings(model, state)?;
     warnings.extend(outside_warnings(model, state));
+    warnings.extend(tiny_warnings(model, state));
     warnings.extend(friction_warning(model));
     // What is about no body sums up the others.
     warnings.sort_by_key(|warning| (warning.key.is_none(), warning.key));
@@ -92,10 +94,29 @@ fn outside_warnings(model: &Model, state: &State) -> Vec<Diagnostic> {
     warnings
 }
 
-/// A method that leaves friction out says so.
+/// Bodies that are smaller than the rounding of where they are.
+fn tiny_warnings(model: &Model, state: &State) -> Vec<Diagnostic> {
+    let is_tiny = |body: &u32| {
+        let radius = model.radius(*body);
+        radius <= touch_tolerance(state.position(*body, state.now), radius)
+    };
+    let warn = |body: u32| {
+        let identity = &model.dynamic(body).identity;
+        let message = format!("body {} is smaller than the last digit of its position", identity.name);
+        warning(identity, message, "make it larger: it may pass through others unseen")
+    };
+    model.present().filter(is_tiny).take(MOST_WARNINGS).map(warn).collect()
+}
+
+/// A method that leaves friction out says so, and so does friction that nothing has to rub on.
 fn friction_warning(model: &Model) -> Option<Diagnostic> {
     let roughness = |body| model.dynamic(body).roughness();
     let is_rough = model.present().any(|body| roughness(body).friction > 0.0);
+    let statics = (0..model.bodies.static_len() as u32).map(BodyId::of_static);
+    if !is_rough && statics.map(|body| model.body(body).roughness()).any(|rough| rough.friction > 0.0) {
+        let message = "there is friction on static bodies alone, and none acts: a pair has √(μ₁μ₂)";
+        return Some(about_all(message.into(), "give the moving bodies friction, too"));
+    }
     let resists = model.present().any(|body| roughness(body).rolling > 0.0);
     let (message, hint) = match model.method {
         Method::Thesis if is_rough => {

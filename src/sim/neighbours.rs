@@ -8,6 +8,7 @@ use super::dense::{Role, step_at};
 use super::force::Law;
 use super::geometry::{ball, contact_distance, gap_of, larger_radius, target};
 use super::model::Model;
+use super::motion::SegmentError;
 use super::pair::Pair;
 use super::predict::{self, Ball, Target, first_beyond};
 use super::queue::{Kind, Predicted};
@@ -85,8 +86,9 @@ pub(super) fn predict_all(model: &Model, state: &mut State, body: u32, time: f64
     predict_neighbours(model, state, body, range, None, time);
 }
 
-/// Moves a body to the tiles it is in now and predicts against the bodies it finds there.
-pub(super) fn reregister(model: &Model, state: &mut State, body: u32, time: f64) {
+/// Moves a body to the tiles it is in now and predicts against the bodies it finds there. One that leaves its tiles at the
+/// time at which it was found in them would do so for ever.
+pub(super) fn reregister(model: &Model, state: &mut State, body: u32, time: f64) -> Result<(), SegmentError> {
     let old = state.registered[body as usize];
     let new = range_at(model, model.radius(body), state.position(body, time));
     if new != old {
@@ -95,14 +97,16 @@ pub(super) fn reregister(model: &Model, state: &mut State, body: u32, time: f64)
         state.counters.tile_crossings += 1;
         predict_neighbours(model, state, body, new, Some(old), time);
     }
-    predict_leaving(model, state, body, time);
+    let leaving = predict_leaving(model, state, body, time);
+    if new == old && leaving <= time { Err(SegmentError::TooFast) } else { Ok(()) }
 }
 
-/// Predicts when the body's box leaves its registered tiles: never too late, perhaps a little early.
-fn predict_leaving(model: &Model, state: &mut State, body: u32, time: f64) {
+/// Predicts when the body's box leaves its registered tiles: never too late, perhaps a little early. Gives the time,
+/// infinite if it does not on its present segment.
+fn predict_leaving(model: &Model, state: &mut State, body: u32, time: f64) -> f64 {
     let (low, high) = model.grid.bounds(&state.registered[body as usize]);
     if low == DVec3::NEG_INFINITY && high == DVec3::INFINITY {
-        return;
+        return f64::INFINITY;
     }
     let radius = model.radius(body);
     let path = state.path(body);
@@ -132,7 +136,9 @@ fn predict_leaving(model: &Model, state: &mut State, body: u32, time: f64) {
     }
     if leaving <= path.segment.end && leaving.is_finite() {
         state.predict_alone(leaving, Kind::LeaveTiles, body, BodyId::NONE);
+        return leaving;
     }
+    f64::INFINITY
 }
 
 /// Predicts when a body comes within the core radius of an attractor on its present segment.

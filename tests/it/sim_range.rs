@@ -134,3 +134,38 @@ fn units_change_no_bit() {
         }
     }
 }
+
+/// Symptom: a ball that a floor throws back 1e18 times as fast stood still in time for ever. Expected: a fault that says why.
+/// Cause: it left its tile at the very time at which it was found in it.
+#[test]
+fn what_outruns_the_resolution_of_time_is_a_fault() {
+    for bounce in [1e18, 1e30] {
+        let dropped = ball(1, DVec3::new(5.0, 5.0, 5.0), DVec3::ZERO).bounce(bounce);
+        let mut sim = Simulation::new(&empty().gravity(-9.8).body(dropped).floor(2, 5.0)).unwrap();
+        sim.begin(5.0);
+        let ended = (0..WORK).find_map(|_| match sim.work(1) {
+            Ok(Progress::Done) => Some(None),
+            Ok(_) => None,
+            Err(fault) => Some(Some(fault)),
+        });
+        let fault = ended.expect("it ends").expect("by a fault");
+        assert!(fault.message.contains("so fast"), "{fault}");
+    }
+}
+
+/// Symptom: a ball of 1e-30 m fell through the floor without a word. Expected: a warning.
+#[test]
+fn a_ball_smaller_than_the_rounding_of_its_place_is_warned_of() {
+    for (radius, warnings) in [(1e-30, 1), (1e-16, 1), (1e-12, 0), (0.1, 0)] {
+        let scene = empty().gravity(-9.8).body(ball(1, DVec3::splat(5.0), DVec3::ZERO).radius(radius));
+        assert_eq!(Simulation::new(&scene).unwrap().start_warnings().len(), warnings, "{radius}");
+    }
+}
+
+#[test]
+fn a_spin_whose_energy_is_no_number_is_refused() {
+    let mut scene = empty().body(ball(1, DVec3::splat(5.0), DVec3::ZERO).radius(0.5));
+    scene.bodies[0].spin = DVec3::new(1e300, 0.0, 0.0);
+    let error = Simulation::new(&scene).map(|_| ()).unwrap_err();
+    assert!(error.to_string().contains("angular velocity"), "{error}");
+}

@@ -15,7 +15,7 @@ const REST_S: f64 = 0.15;
 #[derive(Default)]
 pub(super) struct Drafts {
     views: BTreeMap<usize, Drawn>,
-    /// Whether there are no drafts: for pictures of the window.
+    /// Whether there are no drafts: for scripts, which wait for what they have asked for.
     pub in_full: bool,
 }
 

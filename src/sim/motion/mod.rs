@@ -26,4 +26,6 @@ pub(super) enum SegmentError {
     Stalled,
     /// The centre lies within the core of a point attractor, where its force has no meaning.
     InCore,
+    /// It passes a tile in less than the resolution of time.
+    TooFast,
 }
