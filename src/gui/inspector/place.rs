@@ -101,7 +101,7 @@ fn plan(ui: &mut Ui, context: &AppContext<'_>) {
         "ballistic" => "parabolas in closed form",
         _ => "integrated in the force field",
     };
-    let pairs = if plan.pairs.is_empty() { "none".to_owned() } else { plan.pairs.join(", ") };
+    let pairs = if plan.pairs.is_empty() { "none".to_owned() } else { plan.pairs.join("\n") };
     Grid::new("plan").num_columns(2).spacing([6.0, 3.0]).show(ui, |ui| {
         ui.label("Motion").on_hover_text("How bodies move between events, as this scene needs it");
         ui.label(RichText::new(motion).color(tones(ui).weak));
