@@ -32,8 +32,8 @@ pub fn is_place(label: &str) -> bool {
 }
 
 /// The values of a part with its place moved where it overlaps nothing: past what it would lie in or across, along x or z,
-/// the shortest way that stays in the map. Balls may stand in a box or on a table; unchanged where all is free, where no
-/// place is, or for a tool that asks for none.
+/// the shortest way that stays in the map. New balls may stand in a box or on a table, but a new box stands around nothing;
+/// unchanged where all is free, where no place is, or for a tool that asks for none.
 pub fn free_place(tool: &Tool, given: &Given<'_>, values: &[f64]) -> Vec<f64> {
     let mut values = values.to_vec();
     let at = PLACE.map(|label| tool.inputs.iter().position(|input| input.label == label));
@@ -218,7 +218,8 @@ impl<'a> Search<'a> {
             (false, false) => false,
             // balls stand in a box or on a table, but not across a ramp
             (false, true) => !(thing.is_many && is_level_in(part, thing.extent)),
-            (true, false) => !is_level_in(thing.extent, part),
+            // no plate need touch a ball that a block or stairs would shut in: whatever lies in the part's box is in the way
+            (true, false) => true,
             (true, true) => !(thing.is_many && self.is_room(thing.extent) && is_level_in(part, thing.extent)),
         }
     }

@@ -1,7 +1,7 @@
 //! The steps of a script for the window, as `--do` gives them: text in, commands out. docs/scripts.md lists them.
 
 use super::dock::Panel;
-use crate::design::TOOLS;
+use crate::design::{TOOLS, Tool};
 use crate::editor::{COMMANDS, Command, ViewCommand, WindowCommand, parse_number};
 use crate::export::FORMATS;
 use crate::sim::Method;
@@ -29,7 +29,10 @@ pub(super) fn counted_step(text: &str) -> Result<(Step, usize), String> {
         Some((name, count)) => (name.trim(), Some(count.trim())),
         None => (text, None),
     };
-    let step = step(name).ok_or_else(|| format!("--do: there is no step `{name}`"))?;
+    let step = match name.strip_prefix("build:") {
+        Some(built) => build(built).map_err(|problem| format!("--do {name}: {problem}"))?,
+        None => step(name).ok_or_else(|| format!("--do: there is no step `{name}`"))?,
+    };
     match count.map_or(Ok(1), str::parse) {
         Ok(count @ 1..=MOST) => Ok((step, count)),
         _ => Err(format!("--do {text}: the count after * must be a whole number from 1 to {MOST}")),
@@ -41,7 +44,6 @@ fn step(text: &str) -> Option<Step> {
         return match kind {
             "select" => Some(Step::Select(value.to_owned())),
             "dt" => Some(Step::Dt(value.to_owned())),
-            "build" => build(value),
             "export" => {
                 let index = FORMATS.iter().position(|format| format.id == value)?;
                 Some(Step::Command(WindowCommand::Export(Some(index)).into()))
@@ -68,17 +70,35 @@ fn step(text: &str) -> Option<Step> {
     row.or_else(tool).map(Step::Command)
 }
 
-/// `rack;Rows=3;Ball radius=0.2`
-fn build(text: &str) -> Option<Step> {
-    let mut parts = text.split(';');
-    let id = parts.next()?.trim();
-    let index = TOOLS.iter().position(|tool| tool.id == id)?;
-    let values = parts.map(|part| {
-        let (label, value) = part.split_once('=')?;
-        let known = TOOLS.get(index)?.inputs.iter().any(|input| input.label == label.trim());
-        known.then(|| Some((label.trim().to_owned(), parse_number(value)?))).flatten()
-    });
-    Some(Step::Build(index, values.collect::<Option<Vec<_>>>()?))
+/// `rack;Rows=3;Ball radius=0.2`; the error says which part of it is wrong, and what there is instead.
+fn build(text: &str) -> Result<Step, String> {
+    let (id, values) = text.split_once(';').map_or((text, None), |(id, values)| (id, Some(values)));
+    let id = id.trim();
+    let found = TOOLS.iter().enumerate().find(|(_, tool)| tool.id == id);
+    let (index, tool) = found.ok_or_else(|| {
+        let ids: Vec<&str> = TOOLS.iter().map(|tool| tool.id).collect();
+        format!("there is no tool `{id}`; there are: {}", ids.join(", "))
+    })?;
+    let value = |part: &str| {
+        let (label, typed) =
+            part.split_once('=').ok_or_else(|| format!("`{}` is not LABEL=VALUE", part.trim()))?;
+        let (label, typed) = (label.trim(), typed.trim());
+        if tool.inputs.iter().all(|input| input.label != label) {
+            return Err(unknown_label(tool, label));
+        }
+        let number = parse_number(typed).ok_or_else(|| format!("{label}: `{typed}` is not a number"))?;
+        Ok((label.to_owned(), number))
+    };
+    let values = values.into_iter().flat_map(|values| values.split(';')).map(value);
+    Ok(Step::Build(index, values.collect::<Result<Vec<_>, String>>()?))
+}
+
+fn unknown_label(tool: &Tool, label: &str) -> String {
+    let labels: Vec<&str> = tool.inputs.iter().map(|input| input.label).collect();
+    if labels.is_empty() {
+        return format!("{} asks for nothing, so not for `{label}` either", tool.id);
+    }
+    format!("{} has no value `{label}`; it has: {}", tool.id, labels.join(", "))
 }
 
 #[cfg(test)]
@@ -91,9 +111,8 @@ mod tests {
         assert_eq!(step("next_event"), Some(Step::Command(SessionCommand::NextEvent.into())));
         assert_eq!(step("select:5853"), Some(Step::Select("5853".into())));
         assert_eq!(step("tab:problems"), Some(Step::Panel(Panel::Problems)));
-        assert!(matches!(step("build:rack;Rows=3"), Some(Step::Build(_, values)) if values[0].1 == 3.0));
-        assert_eq!(step("build:rack;Wings=2"), None);
-        assert_eq!(step("build:castle"), None);
+        assert!(matches!(build("rack;Rows=3"), Ok(Step::Build(_, values)) if values[0].1 == 3.0));
+        assert!(matches!(counted_step("build:rack;Rows=3"), Ok((Step::Build(..), 1))));
         assert_eq!(step("fly"), None);
         assert_eq!(step("overlay:nothing"), None);
         assert_eq!(counted_step("next_event*3"), Ok((Step::Command(SessionCommand::NextEvent.into()), 3)));
@@ -102,6 +121,11 @@ mod tests {
             ("next_event*0", "count"),
             ("next_event*x", "count"),
             ("fly*2", "`fly`"),
+            ("build:castle", "there is no tool `castle`; there are: "),
+            ("build:room;Width x=abc", "Width x: `abc` is not a number"),
+            ("build:room;Width x=", "Width x: `` is not a number"),
+            ("build:room;Nope=3", "room has no value `Nope`; it has: Width x, Height y, Depth z, Bounce"),
+            ("build:room;wide", "`wide` is not LABEL=VALUE"),
         ] {
             let error = counted_step(text).unwrap_err();
             assert!(error.contains(reason), "{text}: {error}");

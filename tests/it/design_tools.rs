@@ -394,6 +394,22 @@ fn parts_made_one_after_another_stand_beside_each_other() {
     }
 }
 
+/// Symptom: a block or stairs made after a room and a rack shut in the balls, since no plate touched one. Expected: the
+/// whole box of the new part is free of them.
+#[test]
+fn no_part_of_plates_is_made_around_balls() {
+    let room = use_tool(&empty(), &[], "room", &[]);
+    let rack = add_beside(&room, "rack");
+    let count = scene(&rack).bodies.len();
+    let balls = Extent::around(&scene(&rack).bodies[scene(&room).bodies.len()..]).unwrap();
+    for id in ["block", "stairs", "ramp", "open_box"] {
+        let both = add_beside(&rack, id);
+        let part = Extent::around(&scene(&both).bodies[count..]).unwrap();
+        let apart = balls.min.cmpge(part.max - 1e-9) | part.min.cmpge(balls.max - 1e-9);
+        assert!(apart.any(), "{id} {part:?} is around {balls:?}");
+    }
+}
+
 #[test]
 fn parts_stand_in_rooms_and_balls_in_boxes_and_on_tables() {
     let middle = |document: &Document, before: &Document| {

@@ -1,12 +1,15 @@
 //! Files in the window: the start card, open, save, the guard of unsaved changes, the window's own dialog.
 
+use std::time::Duration;
+
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 
-use super::editor_support::SCENE;
+use super::editor_support::{Bench, SCENE};
 use super::gui_support::{Window, sample_path};
-use polyscene::editor::{SAMPLES, SampleGroup};
+use polyscene::editor::{Action, SAMPLES, SampleGroup};
+use polyscene::scene::BodyChange;
 
 #[test]
 fn an_empty_window_offers_samples() {
@@ -56,6 +59,27 @@ fn the_start_card_closes_for_an_empty_scene() {
     assert!(!window.has("Empty scene"));
     window.menu("Add", "Dynamic sphere");
     assert_eq!(window.scene().bodies.len(), 1);
+}
+
+/// Symptom: the offer of unsaved work stood behind the start card, which took the clicks. Expected: no card while
+/// something is asked, and the answers work.
+#[test]
+fn the_start_card_waits_for_the_question_of_unsaved_work() {
+    for (answer, is_restored) in [("Restore", true), ("Ask later", false)] {
+        let mut bench = Bench::with_storage(tempfile::tempdir().unwrap());
+        let path = bench.file("scene.xml", SCENE);
+        bench.act(Action::OpenPath(path));
+        bench.change(7, BodyChange::Mass(3.0));
+        bench.wait(Duration::from_secs(1));
+        let Bench { session, folder, .. } = bench;
+        drop(session);
+        let mut window = Window::with_storage(folder);
+        assert!(window.has("Recover unsaved work") && !window.has("Empty scene"), "{:?}", window.labels());
+        window.click_role(Role::Button, answer);
+        assert!(!window.has("Recover unsaved work"));
+        assert_eq!(window.has("Empty scene"), !is_restored);
+        assert_eq!(window.scene().bodies.is_empty(), !is_restored);
+    }
 }
 
 #[test]

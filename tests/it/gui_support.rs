@@ -14,6 +14,8 @@ use polyscene::record::{Frame, InlineRunner};
 use polyscene::scene::{Body, NodeKey, Scene};
 use polyscene::view::{Camera, VIEWS, ViewInput, Viewport, scene_bounds};
 
+use super::editor_support::storage;
+
 pub const SIZE: [f32; 2] = [1280.0, 800.0];
 
 /// The application under test, with a folder of its own.
@@ -55,12 +57,22 @@ impl Window {
         Self::sample("thesis-appendix-2")
     }
 
+    /// An empty window with settings and recovery files in a folder, as [`super::editor_support::storage`] has them.
+    pub fn with_storage(folder: tempfile::TempDir) -> Self {
+        let storage = storage(folder.path());
+        Self::of(folder, Parts { storage, ..parts(None) })
+    }
+
     fn with(folder: tempfile::TempDir, scene: Option<PathBuf>) -> Self {
+        Self::of(folder, parts(scene))
+    }
+
+    fn of(folder: tempfile::TempDir, parts: Parts) -> Self {
         let mut harness = Harness::builder()
             .with_size(SIZE)
             .with_max_steps(12)
             .with_accessibility_check(true)
-            .build_eframe(move |cc| App::new(cc, parts(scene)));
+            .build_eframe(move |cc| App::new(cc, parts));
         harness.run();
         Self { harness, folder }
     }

@@ -77,7 +77,13 @@ fn bad_usage_says_the_way_out_and_writes_nothing() {
     let out = folder.path().join("none.png");
     let out = out.to_str().unwrap();
     let orbit = "scenes/orbit.xml";
-    let cases: [(&[&str], i32, &str); 6] = [
+    let photo = folder.path().join("none.jpg");
+    let cases: [(&[&str], i32, &str); 7] = [
+        (
+            &[orbit, "-o", photo.to_str().unwrap()],
+            2,
+            "none.jpg: pictures are PNG files; give a name such as ",
+        ),
         (&[orbit, "-o", out, "--overlays", "map,halo"], 2, "`halo`"),
         (&[orbit, "-o", out, "--size", "big"], 2, "1600x1000"),
         (&[orbit, "-o", out, "--size", "4x4"], 2, "16"),
@@ -89,7 +95,7 @@ fn bad_usage_says_the_way_out_and_writes_nothing() {
         let output = render(arguments);
         assert_eq!(output.status.code(), Some(code), "{arguments:?}: {}", complaint(&output));
         assert!(complaint(&output).contains(said), "{arguments:?}: {}", complaint(&output));
-        assert!(!Path::new(out).exists(), "{arguments:?} left a file");
+        assert!(!Path::new(out).exists() && !photo.exists(), "{arguments:?} left a file");
     }
 }
 

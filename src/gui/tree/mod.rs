@@ -295,3 +295,40 @@ fn rename_edit(shown: &Shown, key: NodeKey, name: Option<String>) -> Option<Edit
 fn look_at(context: &AppContext<'_>, key: NodeKey) {
     context.outbox.send(Message::Frame(vec![key]));
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by stopping")]
+
+    use glam::DVec3;
+
+    use super::rows::counted;
+    use super::*;
+    use crate::scene::{Body, Document, Motion, NumberStyle, Shape};
+
+    /// Symptom: `Moving bodies 0` over a scene whose balls all stood in groups.
+    #[test]
+    fn headings_count_what_stands_in_groups_too() {
+        let document = Document::new(NumberStyle::Point);
+        let ball = |id: i64, group: Option<&str>| {
+            let motion = Motion::Dynamic { mass: 1.0, velocity: DVec3::ZERO };
+            let mut body = Body::new(id, DVec3::ONE, motion, Shape::Sphere { radius: 0.1 });
+            body.group = group.map(str::to_owned);
+            Edit::AddBody(Box::new(body))
+        };
+        let edits = vec![ball(1, Some("rack")), ball(2, Some("rack")), ball(3, None)];
+        let document = document.apply(&Edit::All(edits)).unwrap().document;
+        let heading = |filter: &str| {
+            let rows = collect(document.scene().unwrap(), filter, &[], &BTreeSet::new());
+            let heading = rows.iter().find_map(|row| match row {
+                Row::Group { group: Group::Dynamic, count, shown, grouped, .. } => {
+                    Some(counted(*count, *shown, *grouped))
+                }
+                _ => None,
+            });
+            heading.unwrap()
+        };
+        assert_eq!(heading(""), "3, 2 in groups");
+        assert_eq!(heading("rack"), "2 of 3");
+    }
+}

@@ -40,8 +40,12 @@ pub enum Row {
     Place(Place),
     Group {
         group: Group,
+        /// How many there are, those in named groups included.
         count: usize,
+        /// Of those, how many the filter lets through.
         shown: usize,
+        /// Of all, how many stand in named groups.
+        grouped: usize,
         open: bool,
     },
     Named(Named),
@@ -72,7 +76,9 @@ impl Row {
             Self::Force { index, key, .. } => Self::Force { index, key, depth },
             Self::Body { index, key, .. } => Self::Body { index, key, depth },
             Self::Place(place) => Self::Place(place),
-            Self::Group { group, count, shown, open } => Self::Group { group, count, shown, open },
+            Self::Group { group, count, shown, grouped, open } => {
+                Self::Group { group, count, shown, grouped, open }
+            }
             Self::Named(ref named) => Self::Named(named.clone()),
         }
     }
@@ -99,33 +105,43 @@ pub fn collect(scene: &Scene, filter: &str, closed: &[Group], open_named: &BTree
     };
     let found = named::collect(scene, &|key| in_groups.contains(&key), !words.is_empty(), open_named);
     rows.extend(found);
-    let single_forces = || scene.forces.iter().enumerate().filter(|(_, force)| force.group.is_none());
-    let found = single_forces().filter(|(_, force)| force_found(force));
-    let found = found.map(|(index, force)| Row::Force { index, key: force.key, depth: 0 }).collect();
-    add_group(&mut rows, Group::Forces, single_forces().count(), found, &words, closed);
+    let of_forces = scene.forces.iter().enumerate().map(|(index, force)| {
+        let row = Row::Force { index, key: force.key, depth: 0 };
+        (row, force.group.is_some(), force_found(force))
+    });
+    add_group(&mut rows, Group::Forces, of_forces, &words, closed);
     for (group, dynamic) in [(Group::Dynamic, true), (Group::Static, false)] {
-        let of_group = || {
-            let bodies = scene.bodies.iter().enumerate();
-            bodies.filter(move |(_, body)| body.is_dynamic() == dynamic && body.group.is_none())
-        };
-        let found = of_group().filter(|(_, body)| body_found(body));
-        let found = found.map(|(index, body)| Row::Body { index, key: body.key, depth: 0 }).collect();
-        add_group(&mut rows, group, of_group().count(), found, &words, closed);
+        let bodies = scene.bodies.iter().enumerate().filter(|(_, body)| body.is_dynamic() == dynamic);
+        let of_bodies = bodies.map(|(index, body)| {
+            let row = Row::Body { index, key: body.key, depth: 0 };
+            (row, body.group.is_some(), body_found(body))
+        });
+        add_group(&mut rows, group, of_bodies, &words, closed);
     }
     rows
 }
 
+/// A heading and what stands under it, of all of a kind: each with its row, whether it stands in a named group instead, and
+/// whether the filter finds it. The heading counts those in groups too.
 fn add_group(
     rows: &mut Vec<Row>,
     group: Group,
-    count: usize,
-    found: Vec<Row>,
+    all: impl Iterator<Item = (Row, bool, bool)>,
     words: &[String],
     closed: &[Group],
 ) {
+    let (mut found, mut count, mut shown, mut grouped) = (Vec::new(), 0, 0, 0);
+    for (row, is_grouped, is_found) in all {
+        count += 1;
+        grouped += usize::from(is_grouped);
+        shown += usize::from(is_found);
+        if is_found && !is_grouped {
+            found.push(row);
+        }
+    }
     // a filter shows what it finds, also in groups that are closed
     let open = !words.is_empty() || !closed.contains(&group);
-    rows.push(Row::Group { group, count, shown: found.len(), open });
+    rows.push(Row::Group { group, count, shown, grouped, open });
     if open {
         rows.extend(found);
     }
@@ -162,8 +178,8 @@ impl Tree {
     ) {
         match row {
             Row::Place(place) => place_row(ui, context, *place),
-            Row::Group { group, count, shown, open } => {
-                let response = group_row(ui, *group, *count, *shown, *open);
+            Row::Group { group, count, shown, grouped, open } => {
+                let response = group_row(ui, *group, &counted(*count, *shown, *grouped), *open);
                 self.take_drop(ui, context, &response, &Target::Group(None));
                 if response.clicked() {
                     match self.closed.iter().position(|closed| closed == group) {
@@ -409,17 +425,25 @@ pub(super) fn triangle(ui: &Ui, center: egui::Pos2, open: bool) {
     ui.painter().add(egui::Shape::convex_polygon(corners, tones(ui).weak, egui::Stroke::NONE));
 }
 
+/// Such as `15, 12 in groups`, or `3 of 15` under a filter.
+pub(super) fn counted(count: usize, shown: usize, grouped: usize) -> String {
+    let [count_text, shown_text, grouped_text] =
+        [count, shown, grouped].map(|count| numbers::count(count as u64));
+    if shown != count {
+        format!("{shown_text} of {count_text}")
+    } else if grouped > 0 {
+        format!("{count_text}, {grouped_text} in groups")
+    } else {
+        count_text
+    }
+}
+
 /// A click opens or closes it.
-fn group_row(ui: &mut Ui, group: Group, count: usize, shown: usize, open: bool) -> egui::Response {
+fn group_row(ui: &mut Ui, group: Group, count: &str, open: bool) -> egui::Response {
     let (rect, response) = row_space(ui, false, group.label());
     let tones = tones(ui);
     let center = pos2(rect.left() + 12.0, rect.center().y);
     triangle(ui, center, open);
-    let count = if shown == count {
-        numbers::count(count as u64)
-    } else {
-        format!("{} of {}", numbers::count(shown as u64), numbers::count(count as u64))
-    };
     let at = pos2(rect.left() + 22.0, rect.center().y);
     let font = FontId::proportional(13.0);
     let drawn = ui.painter().text(at, Align2::LEFT_CENTER, group.label(), font, tones.strong);
