@@ -1,6 +1,7 @@
 //! A recording as a file: the scene's bytes, how it was stepped, the edits, bookmarks, and hashes of the state along the way.
 //! Whoever has it runs the same again and sees where, if anywhere, the runs part.
 
+mod check;
 mod keys;
 mod script;
 #[cfg(test)]
@@ -25,9 +26,6 @@ const VERSION: u32 = 1;
 
 /// Length of a Δt where none is recorded, s.
 const USUAL_DT: f64 = 1.0 / 60.0;
-
-/// Δt of a run: weeks of them at sixty in a second.
-const MOST_STEPS: u64 = 100_000_000;
 
 /// Largest file that is read: scenes of 256 MiB and what belongs to them.
 pub const MOST_BYTES: u64 = 512 << 20;
@@ -207,26 +205,6 @@ impl RecordingFile {
             before += count;
         }
         before + 1
-    }
-
-    /// Numbers that a run could not take.
-    fn check(&self) -> Result<(), RecordingError> {
-        let wrong = |what: &str| Err(RecordingError::Content(what.to_owned()));
-        let moments = self.edits.iter().map(|edits| edits.at).chain([self.end]);
-        if !moments.clone().all(|moment| moment.time.is_finite() && moment.time >= 0.0) {
-            return wrong("a time in it is not one of a run");
-        }
-        if !moments.clone().zip(moments.skip(1)).all(|(a, b)| a.is_not_after(b)) {
-            return wrong("its edits are not in the order of their times");
-        }
-        if !self.steps.iter().all(|steps| steps.dt.is_finite() && steps.dt > 0.0) {
-            return wrong("a Δt in it is not above zero");
-        }
-        let count = self.steps.iter().try_fold(0_u64, |sum, steps| sum.checked_add(steps.count));
-        if count.is_none_or(|count| count > MOST_STEPS) {
-            return wrong("it has more Δt than a run can have taken");
-        }
-        self.method().map(|_| ())
     }
 }
 

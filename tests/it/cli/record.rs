@@ -93,7 +93,7 @@ fn what_is_no_recording_is_refused_with_its_reason() {
         ("cut.psrec", "not a recording"),
         ("base64.psrec", "not base64"),
         ("method.psrec", "no method “guess”"),
-        ("step.psrec", "Δt in it is not above zero"),
+        ("step.psrec", "steps[0].dt is -0.0"),
         ("missing.psrec", "cannot read missing.psrec"),
     ];
     for (file, hint) in cases {
@@ -106,6 +106,28 @@ fn what_is_no_recording_is_refused_with_its_reason() {
     let kept = bench.polyscene(&["record", "scene.xml", "--until", "1", "-o", "run.psrec"]);
     assert_eq!(kept.code, 2, "{}", kept.stderr);
     assert_eq!(bench.read("run.psrec"), text);
+}
+
+/// Symptom: a recording that claims an end at 1.8e19 s was run for ever, and one with a Δt of 1e300 s was taken as it is.
+#[test]
+fn numbers_that_no_run_has_are_refused_by_the_name_of_their_field() {
+    let bench = recorded();
+    let good: serde_json::Value = serde_json::from_str(&bench.read("run.psrec")).expect("JSON");
+    for (pointer, value, expected) in [
+        ("/steps/0/dt", 1e300, "steps[0].dt is 1e300, and has to be above 0 and at most 1e9 s"),
+        ("/steps/0/count", 0.0, "steps[0].count is 0, and has to be at least 1"),
+        ("/checkpoints/0/at/time", -1.0, "checkpoints[0].at.time is -1.0, and has to be from 0 to 1e9 s"),
+        ("/checkpoints/0/at/time", 1.8e19, "checkpoints[0].at.time is 1.8e19"),
+        ("/end/time", 1.8e19, "end.time is 1.8e19, and has to be from 0 to 1e9 s"),
+    ] {
+        let mut bad = good.clone();
+        let whole = pointer.ends_with("count");
+        *bad.pointer_mut(pointer).expect(pointer) = if whole { 0_u64.into() } else { value.into() };
+        bench.write("bad.psrec", bad.to_string());
+        let outcome = bench.polyscene(&["replay", "bad.psrec"]);
+        assert_eq!(outcome.code, 2, "{pointer}: {}", outcome.stderr);
+        assert!(outcome.stderr.contains(expected), "{pointer}: {}", outcome.stderr);
+    }
 }
 
 /// What was recorded is what the scene does: the motion of a recording, looked up, is byte for byte that of its scene,
