@@ -85,13 +85,21 @@ fn what_is_no_recording_is_refused_with_its_reason() {
     bench.write("newer.psrec", text.replacen("\"version\": 1", "\"version\": 7", 1));
     bench.write("cut.psrec", &text[..text.len() / 2]);
     bench.write("base64.psrec", text.replacen("\"scene\": \"", "\"scene\": \"*", 1));
+    let mut broken: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    // an element that is not closed, in line 2
+    broken["scene"] = "PFBvbHlQaHlzaWNzWG1sIFZlcnNpb249IjEuMCI+CjxNYXA+PC9Qb2x5UGh5c2ljc1htbD4K".into();
+    bench.write("broken.psrec", broken.to_string());
     bench.write("method.psrec", text.replacen("\"exact\"", "\"guess\"", 1));
     bench.write("step.psrec", text.replacen("\"dt\": 0.0", "\"dt\": -0.0", 1));
     let cases = [
-        ("scene.psrec", "not a recording"),
+        ("scene.psrec", "not a recording: expected value at line 1 column 1; a recording (.psrec) is what"),
         ("newer.psrec", "version 7"),
-        ("cut.psrec", "not a recording"),
+        ("cut.psrec", "this recording cannot be read: EOF while parsing"),
+        ("cut.psrec", "the file is damaged: record again (`polyscene record`), or ask for another copy"),
         ("base64.psrec", "not base64"),
+        ("base64.psrec", "the file is damaged: record again"),
+        ("broken.psrec", "its scene has errors: line 2, column "),
+        ("broken.psrec", "the file is damaged: record again"),
         ("method.psrec", "no method “guess”"),
         ("step.psrec", "steps[0].dt is -0.0"),
         ("missing.psrec", "cannot read missing.psrec"),
