@@ -41,14 +41,18 @@ pub struct CheckArgs {
 
 pub(super) fn check(args: &CheckArgs) -> Result<(), CliError> {
     args.refuse_unclear_output()?;
-    let (mut errors, mut warnings) = (0, 0);
+    let (mut errors, mut warnings, mut unfixed) = (0, 0, 0);
     for file in &args.files {
         let before = FileStamp::of(file);
         let mut examined = input::open(file, Method::Exact)?;
         if args.fix {
-            let fixed = fixed(file, &examined.document)?;
-            write(args, file, &before, &examined.document, &fixed)?;
-            examined = input::examine(fixed, Method::Exact);
+            match fixed(file, &examined)? {
+                Some(fixed) => {
+                    write(args, file, &before, &examined.document, &fixed.document)?;
+                    examined = fixed;
+                }
+                None => unfixed += 1,
+            }
         }
         examined.problems.extend(troubles(&examined));
         // What is about no place sums up.
@@ -65,6 +69,9 @@ pub(super) fn check(args: &CheckArgs) -> Result<(), CliError> {
         counted(errors, "error"),
         counted(warnings, "warning")
     );
+    if unfixed > 0 {
+        return Err(CliError::Scene(format!("{summary}; {} not fixed", counted(unfixed, "file"))));
+    }
     if errors > 0 {
         return Err(CliError::Scene(summary));
     }
@@ -99,14 +106,27 @@ impl CheckArgs {
     }
 }
 
-/// The scene with all put right that can be; tells what was.
-fn fixed(file: &Path, document: &Document) -> Result<Document, CliError> {
-    let fixed = design::repair_all(document)
-        .map_err(|error| CliError::Usage(format!("cannot fix {}: {error}", input::display_name(file))))?;
-    for what in &fixed.done {
-        super::say(format!("{}: {what}", input::display_name(file)));
+/// The scene with all put right that can be; tells what was. None where that would make errors that were not there, as
+/// enormous numbers do: told too, with the first of them.
+fn fixed(file: &Path, examined: &Examined) -> Result<Option<Examined>, CliError> {
+    let name = input::display_name(file);
+    let fixed = design::repair_all(&examined.document)
+        .map_err(|error| CliError::Usage(format!("cannot fix {name}: {error}")))?;
+    let after = input::examine(fixed.document, Method::Exact);
+    if after.error_count() > examined.error_count() {
+        let error = after.problems.iter().find(|problem| problem.is_error());
+        let error = error.map_or_else(String::new, |error| format!(": {}", error.message));
+        super::say(format!(
+            "{name}: the fix is not written, it would make {} that the scene does not have{error}; put the scene right \
+             by hand",
+            counted(after.error_count() - examined.error_count(), "error")
+        ));
+        return Ok(None);
     }
-    Ok(fixed.document)
+    for what in &fixed.done {
+        super::say(format!("{name}: {what}"));
+    }
+    Ok(Some(after))
 }
 
 /// Writes the scene in one go. A file that nothing was changed in, or that another program wrote meanwhile, stays.

@@ -7,6 +7,8 @@ use clap::Args;
 use super::output::{self, is_stdout};
 use super::{CliError, input};
 use crate::import::{self, Imported};
+use crate::scene::Document;
+use crate::sim::Method;
 
 /// Read a scene of MuJoCo (MJCF) or Gazebo (SDF)
 ///
@@ -42,17 +44,19 @@ pub(super) fn import(args: &ImportArgs) -> Result<(), CliError> {
     output::refuse_bad("--output", &args.output, ("the file read,", &args.file), args.force)?;
     let name = input::display_name(&args.file);
     let document = input::read(&args.file)?;
-    let Imported { document, report, problems } = import::import(&document, args.leave_out);
+    let imported = import::import(&document, args.leave_out);
+    let Imported { document, report, problems, .. } = &imported;
     for line in &report.lines {
         let separator = if line.position.is_some() { ":" } else { ": " };
         super::say(format!("{name}{separator}{line}"));
     }
-    for problem in &problems {
+    for problem in problems {
         super::say(input::problem_line(&name, problem));
     }
     let Some(document) = document else {
         return Err(CliError::Scene(format!("{name} cannot be imported: {} error(s)", problems.len())));
     };
+    refuse_unusable(&name, &imported, document)?;
     let losses = report.losses().count();
     if args.strict && losses > 0 {
         return Err(CliError::Scene(format!(
@@ -63,4 +67,18 @@ pub(super) fn import(args: &ImportArgs) -> Result<(), CliError> {
         return output::print(&document.to_bytes());
     }
     document.save(&args.output).map_err(|error| CliError::unwritable(&args.output, &error))
+}
+
+/// A scene that `check` finds errors in is of no use to anybody.
+fn refuse_unusable(name: &str, imported: &Imported, document: &Document) -> Result<(), CliError> {
+    let examined = input::examine(document.clone(), Method::Exact);
+    for problem in examined.problems.iter().filter(|problem| problem.is_error()) {
+        super::say(input::problem_line(name, &imported.in_the_file(problem.clone())));
+    }
+    match examined.error_count() {
+        0 => Ok(()),
+        count => Err(CliError::Scene(format!(
+            "{name} was not imported: the scene that comes of it has {count} error(s), so that it could not be run"
+        ))),
+    }
 }

@@ -1,7 +1,6 @@
 //! Numbers of the command line, and complaints that name the way out.
 
-/// The latest model time, s. Neighbouring numbers are 1e-7 s apart there: contacts are not told apart well.
-const LATEST: f64 = 1e9;
+use crate::record::LATEST_TIME;
 
 /// A length of time in seconds: above 0, see [`any_seconds`].
 pub fn seconds(text: &str) -> Result<f64, String> {
@@ -22,7 +21,7 @@ pub(super) fn part(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Seconds: a number of at most [`LATEST`], or a fraction such as `1/60`.
+/// Seconds: a number of at most [`LATEST_TIME`], or a fraction such as `1/60`.
 pub(super) fn any_seconds(text: &str) -> Result<f64, String> {
     let value = match text.split_once('/') {
         Some((top, bottom)) => number(top)? / number(bottom)?,
@@ -30,8 +29,8 @@ pub(super) fn any_seconds(text: &str) -> Result<f64, String> {
     };
     if !value.is_finite() {
         Err("must be a finite number of seconds".into())
-    } else if value > LATEST {
-        Err(format!("must be at most {LATEST:e} seconds, where time is resolved to 1e-7 s"))
+    } else if value > LATEST_TIME {
+        Err(format!("must be at most {LATEST_TIME:e} seconds, where time is resolved to 1e-7 s"))
     } else {
         Ok(value)
     }

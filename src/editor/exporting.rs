@@ -61,7 +61,7 @@ impl Session {
     /// Takes a file of another program as a new scene that is not saved yet. Asks before it leaves something out that
     /// cannot be here.
     pub(super) fn open_foreign(&mut self, path: &Path, foreign: &Document, leave_out: bool) {
-        let Imported { document, report, problems } = import::import(foreign, leave_out);
+        let Imported { document, report, problems, .. } = import::import(foreign, leave_out);
         let Some(document) = document else {
             let (count, name) = (problems.len(), shown_path(path));
             self.talk.question = match problems.first() {

@@ -23,6 +23,9 @@ pub enum ExportError {
     Fault(String),
     #[error("stopped at t = {time} s of the simulation")]
     Cancelled { time: f64 },
+    /// A number that the format has no place for.
+    #[error("{0}")]
+    Beyond(String),
     #[error("the file would be larger than 4 GiB, the most that the format allows")]
     TooLarge,
 }

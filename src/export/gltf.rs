@@ -10,6 +10,7 @@ use super::format::{Exported, Format, Source};
 use super::mesh::{self, Mesh};
 use super::motion::Animation;
 use super::names;
+use super::range;
 use super::report::{Fate, Report, approximated, dropped, kept, no_meaning, not_needed};
 use crate::scene::{Body, ForceKind, Motion, Roughness, Shape, Viewpoint, rotation_matrix};
 
@@ -24,13 +25,14 @@ pub(super) const FORMAT: Format = Format {
 };
 
 fn write(source: &Source<'_>) -> Result<Exported, ExportError> {
+    range::seen(source, FORMAT.name)?;
     let mut file = File::default();
     let names = names::unique(source.scene, &[], str::to_owned);
     for (body, name) in source.scene.bodies.iter().zip(&names) {
         file.add_body(body, name);
     }
     if let Some(motion) = source.motion {
-        file.add_animation(source, motion);
+        file.add_animation(source, motion)?;
     }
     for viewpoint in source.document.viewpoints() {
         file.add_camera(&viewpoint, source.scene.map.size.length());
@@ -165,7 +167,7 @@ impl File {
 
     /// A channel for the way of each moving body, and where bodies rub one for how it turns; the nodes of bodies come first,
     /// in their order.
-    fn add_animation(&mut self, source: &Source<'_>, motion: &Animation) {
+    fn add_animation(&mut self, source: &Source<'_>, motion: &Animation) -> Result<(), ExportError> {
         let start = motion.frames.from;
         let shared = self.times(&motion.times.iter().map(|time| (time - start) as f32).collect::<Vec<_>>());
         let (mut samplers, mut channels) = (Vec::new(), Vec::new());
@@ -177,6 +179,9 @@ impl File {
                 self.times(&keys.iter().map(|key| (key.time - start) as f32).collect::<Vec<_>>())
             };
             let places = keys.iter().flat_map(|key| key.position.as_vec3().to_array()).collect::<Vec<_>>();
+            if let Some(key) = keys.iter().find(|key| !key.position.as_vec3().is_finite()) {
+                return range::too_far(body, key.position, key.time, FORMAT.name);
+            }
             let turns = keys.iter().filter_map(|key| key.orientation);
             let turns = turns.flat_map(|turn| turn.as_quat().normalize().to_array()).collect::<Vec<_>>();
             for (path, kind, numbers) in [("translation", "VEC3", places), ("rotation", "VEC4", turns)] {
@@ -193,6 +198,7 @@ impl File {
         if !channels.is_empty() {
             self.animations.push(json!({ "name": "Motion", "samplers": samplers, "channels": channels }));
         }
+        Ok(())
     }
 
     /// A camera looks along its −z, with y up. `extent` is what it must reach beyond its target.

@@ -11,6 +11,7 @@ use super::error::ExportError;
 use super::format::{Exported, Format, Source};
 use super::names;
 use super::pairs::{Pairs, Surface};
+use super::range;
 use super::report::{Fate, Report, approximated, dropped, kept, no_meaning, not_needed};
 use super::slab::Slabs;
 use super::xml::{Xml, number, numbers, rgba, vector};
@@ -51,6 +52,8 @@ struct Writer<'a> {
 }
 
 fn write(source: &Source<'_>) -> Result<Exported, ExportError> {
+    range::doubles(source, FORMAT.name)?;
+    range::surroundings(source, FORMAT.name)?;
     let contact = Yielding::of(source);
     let mut writer = Writer {
         source,

@@ -15,6 +15,7 @@ mod motion;
 mod names;
 mod pairs;
 mod polyphysics;
+mod range;
 mod report;
 mod sdf;
 mod slab;

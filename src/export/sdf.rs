@@ -8,6 +8,7 @@ use super::contact::{Yielding, rolling_lever};
 use super::error::ExportError;
 use super::format::{Exported, Format, Source};
 use super::names;
+use super::range;
 use super::report::{Fate, Report, approximated, dropped, kept, no_meaning, not_needed};
 use super::slab::Slabs;
 use super::xml::{Xml, number, numbers, rgba, vector};
@@ -35,6 +36,7 @@ struct Writer<'a> {
 }
 
 fn write(source: &Source<'_>) -> Result<Exported, ExportError> {
+    range::doubles(source, FORMAT.name)?;
     let contact = Yielding::of(source);
     let mut writer = Writer {
         source,

@@ -10,6 +10,7 @@ use super::error::ExportError;
 use super::format::{Exported, Format, Source};
 use super::motion::{Animation, Frames, Key};
 use super::names;
+use super::range;
 use super::report::{Fate, Report, approximated, dropped, kept, no_meaning, not_needed};
 use super::xml::number;
 use crate::scene::{Body, Motion, Shape, escaped, rotation_matrix};
@@ -25,6 +26,7 @@ pub(super) const FORMAT: Format = Format {
 };
 
 fn write(source: &Source<'_>) -> Result<Exported, ExportError> {
+    range::singles(source, FORMAT.name)?;
     let mut text = header(source.motion);
     gravity(&mut text, source.gravity());
     let surfaces = surfaces(source);

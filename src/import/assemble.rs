@@ -17,12 +17,14 @@ const REACH: f64 = 3.0;
 const TILE: f64 = 4.0;
 const MOST_TILES: f64 = 64.0;
 
-pub(super) fn scene(world: World, log: &mut Log) -> Scene {
+/// The scene, and where in the file each of its bodies comes from.
+pub(super) fn scene(world: World, log: &mut Log) -> (Scene, Vec<Option<(u32, u32)>>) {
     let World { gravity, density, time_speed, map, pieces } = world;
     let maker = Maker::of(&pieces);
-    let mut bodies = Vec::new();
+    let (mut bodies, mut origins) = (Vec::new(), Vec::new());
     for piece in &pieces {
         maker.add(piece, &mut bodies, log);
+        origins.resize(bodies.len(), piece.origin);
     }
     let (map, shift) = match map {
         Some(size) => (Map { size, tiles: tiles(size, maker.largest) }, DVec3::ZERO),
@@ -46,7 +48,7 @@ pub(super) fn scene(world: World, log: &mut Log) -> Scene {
     if density > 0.0 {
         force(ForceKind::Drag { density });
     }
-    Scene { map, time_speed, params: SimParams::default(), forces, bodies }
+    (Scene { map, time_speed, params: SimParams::default(), forces, bodies }, origins)
 }
 
 /// (x, y, z) → (x, z, −y).

@@ -189,6 +189,7 @@ impl<'a> Reader<'a, '_> {
             color: attribute("rgba").and_then(color_of).or(material),
             // The viewer shows the groups 0 to 2 at first.
             hidden: group.is_some_and(|group| group > 2),
+            origin: el.position(),
         };
         if free.is_some() {
             let drag_share = self.drag_share(el, class);

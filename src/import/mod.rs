@@ -41,6 +41,22 @@ pub struct Imported {
     pub report: ImportReport,
     /// Errors, in the order of their places.
     pub problems: Vec<Diagnostic>,
+    /// Labels of the scene's bodies, and where in the file they come from.
+    origins: Vec<(String, Option<(u32, u32)>)>,
+}
+
+impl Imported {
+    /// A problem of the scene that came of the file, at the place of its body in the file instead of in the scene.
+    pub fn in_the_file(&self, mut problem: Diagnostic) -> Diagnostic {
+        let scene = self.document.as_ref().and_then(Document::scene);
+        let body = scene.and_then(|scene| scene.bodies.iter().find(|body| Some(body.key) == problem.key));
+        let origin = body.and_then(|body| self.origins.iter().find(|(label, _)| *label == body.label));
+        problem.position = origin.and_then(|(_, position)| *position);
+        if problem.position.is_some() {
+            problem.path.clear();
+        }
+        problem
+    }
 }
 
 /// The kind of file that a document is, unless it is a scene already or anything else.
@@ -54,10 +70,13 @@ pub fn source_of(document: &Document) -> Option<&'static Source> {
 pub fn import(document: &Document, leave_out: bool) -> Imported {
     let mut log = Log::new(leave_out);
     let Some((root, source)) = document.xml_root().zip(source_of(document)) else {
-        return Imported { document: None, report: ImportReport::default(), problems: unknown(document) };
+        let (report, problems) = (ImportReport::default(), unknown(document));
+        return Imported { document: None, report, problems, origins: Vec::new() };
     };
     let world = (source.read)(root, &mut log);
-    let scene = assemble::scene(world, &mut log);
+    let (scene, origins) = assemble::scene(world, &mut log);
+    let labels = scene.bodies.iter().map(|body| body.label.clone());
+    let origins = labels.zip(origins).collect();
     let (report, mut problems) = log.into_parts();
     let document = match Document::of_scene(&scene, crate::scene::NumberStyle::Point) {
         Ok(document) if problems.is_empty() => Some(document),
@@ -67,7 +86,7 @@ pub fn import(document: &Document, leave_out: bool) -> Imported {
             None
         }
     };
-    Imported { document, report, problems }
+    Imported { document, report, problems, origins }
 }
 
 fn unknown(document: &Document) -> Vec<Diagnostic> {

@@ -38,6 +38,8 @@ pub(super) struct Piece {
     pub rolling: f64,
     pub color: Option<[u8; 3]>,
     pub hidden: bool,
+    /// Line and column of the element that it is.
+    pub origin: Option<(u32, u32)>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -107,7 +107,8 @@ impl Reader<'_> {
             "sun" | "Sun" => self.log.not_needed(el),
             "ground_plane" | "Ground Plane" => {
                 let pose = self.pose(el);
-                let piece = new_piece(Some("ground_plane".into()), pose, PieceShape::Plane([50.0; 2]));
+                let shape = PieceShape::Plane([50.0; 2]);
+                let piece = new_piece(Some("ground_plane".into()), pose, shape, el.position());
                 self.world.pieces.push(piece);
                 self.log.note(Verdict::Kept, "model://ground_plane", "as a plane", el.position());
             }
@@ -168,7 +169,8 @@ impl Reader<'_> {
         let visual = el.child("visual");
         for collision in collisions {
             let Some((pose, shape)) = self.collision(collision, fixed) else { continue };
-            let mut piece = new_piece(model.attribute("name").map(Into::into), at.then(pose), shape);
+            let name = model.attribute("name").map(Into::into);
+            let mut piece = new_piece(name, at.then(pose), shape, model.position());
             piece.bounce = self.bounce(collision);
             piece.friction = self.friction(collision);
             piece.rolling = self.lever(collision);
@@ -350,10 +352,10 @@ impl Reader<'_> {
     }
 }
 
-fn new_piece(name: Option<String>, pose: Pose, shape: PieceShape) -> Piece {
+fn new_piece(name: Option<String>, pose: Pose, shape: PieceShape, origin: Option<(u32, u32)>) -> Piece {
     let (id, motion, color, hidden) = (None, None, None, false);
     let (spin, bounce, friction, rolling) = (DVec3::ZERO, 0.0, USUAL_FRICTION, 0.0);
-    Piece { name, id, pose, shape, motion, spin, bounce, friction, rolling, color, hidden }
+    Piece { name, id, pose, shape, motion, spin, bounce, friction, rolling, color, hidden, origin }
 }
 
 fn color_of(visual: XmlElement<'_>) -> Option<[u8; 3]> {

@@ -5,6 +5,10 @@ use std::time::{Duration, Instant};
 
 use crate::sim::{Event, Fault, Progress, Simulation};
 
+/// The latest model time of a run, and its longest Δt, s. Neighbouring numbers are 1e-7 s apart there: contacts are not told
+/// apart well.
+pub const LATEST_TIME: f64 = 1e9;
+
 /// What a run may cost; `None` is without limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Limits {

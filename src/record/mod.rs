@@ -43,7 +43,7 @@ pub use file::{
 pub use frame::{BodyFrame, Busiest, ContactFrame, Frame, Jump, Lag, LagCause, Recorded, RunState};
 pub use inline::InlineRunner;
 pub use ledger::{EventRow, Ledger, Past};
-pub use limits::{Exceeded, Limits, Watch, advance};
+pub use limits::{Exceeded, LATEST_TIME, Limits, Watch, advance};
 pub use moment::Moment;
 pub use motion::RecordedMotion;
 pub use recording::BUDGET as DEFAULT_RECORDING_BYTES;

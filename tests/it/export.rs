@@ -457,6 +457,28 @@ fn accessor(glb: &[u8], json: &Value, index: &Value, width: usize) -> Vec<Vec<f6
     numbers.chunks(width).map(<[f64]>::to_vec).collect()
 }
 
+/// Symptom: files with `inf` in them, which no program reads, and numbers beyond those of 32 bits where the format has these.
+#[test]
+fn numbers_that_a_format_cannot_hold_are_refused_with_the_body_and_the_value() {
+    let (radius, sphere) = ("<Radius F32=\"0.5\" />", "<Sphere>");
+    for (from, to, formats, expected) in [
+        (radius, "<Radius F32=\"1e300\" />", &["sdf", "mjcf"][..], "body 7: radius 1e300 m and mass "),
+        (radius, "<Radius F32=\"1e300\" />", &["usd", "gltf"], "body 7: its radius is 1e300 m, which "),
+        (sphere, "<Weight F32=\"1e300\" /><Sphere>", &["usd"], "body 7: its mass is 1e300 kg, which USD"),
+        (sphere, "<Weight F32=\"1e-300\" /><Sphere>", &["usd"], "body 7: its mass is 1e-300 kg, which USD"),
+        ("<Size X=\"9\"", "<Size X=\"1e300\"", &["mjcf"], "its longest side is 1e300 m, which MuJoCo"),
+        ("Y=\"-9.8\"", "Y=\"-1e39\"", &["usd"], "uniform gravity: the sum of all is 1e39 m/s², which USD"),
+    ] {
+        let document = Document::from_bytes(DROP.replacen(from, to, 1).as_bytes());
+        for id in formats {
+            let refused = format(id).export(&document);
+            let Err(ExportError::Beyond(message)) = refused else { panic!("{id} of {to}: {refused:?}") };
+            assert!(message.contains(expected), "{id} of {to}: {message}");
+        }
+        assert!(format("csv").export(&document).is_ok(), "{to}");
+    }
+}
+
 #[test]
 fn motion_that_cannot_be_is_refused() {
     let document = Document::from_bytes(DROP.as_bytes());

@@ -1,6 +1,7 @@
 //! A recording as a file: the scene's bytes, how it was stepped, the edits, bookmarks, and hashes of the state along the way.
 //! Whoever has it runs the same again and sees where, if anywhere, the runs part.
 
+mod check;
 mod keys;
 mod script;
 #[cfg(test)]
@@ -15,7 +16,7 @@ use base64::engine::general_purpose::STANDARD;
 use serde::{Deserialize, Serialize};
 
 use super::moment::Moment;
-use crate::scene::{Document, Scene, escaped};
+use crate::scene::{Diagnostic, Document, Scene, escaped};
 use crate::sim::{Method, SimEdit};
 use keys::NamedKey;
 
@@ -23,11 +24,11 @@ use keys::NamedKey;
 const FORMAT: &str = "polyscene recording";
 const VERSION: u32 = 1;
 
+/// Bytes in which it calls itself so.
+const HEAD_BYTES: usize = 200;
+
 /// Length of a Δt where none is recorded, s.
 const USUAL_DT: f64 = 1.0 / 60.0;
-
-/// Δt of a run: weeks of them at sixty in a second.
-const MOST_STEPS: u64 = 100_000_000;
 
 /// Largest file that is read: scenes of 256 MiB and what belongs to them.
 pub const MOST_BYTES: u64 = 512 << 20;
@@ -112,18 +113,25 @@ pub struct Written {
     pub problem: Option<String>,
 }
 
-/// Why a recording cannot be used.
+/// Why a recording cannot be used, and the way out.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RecordingError {
-    #[error("this is not a recording: {0}")]
+    #[error(
+        "this is not a recording: {0}; a recording (.psrec) is what `polyscene record` or the editor saves"
+    )]
+    Foreign(String),
+    #[error("this recording cannot be read: {0}; {DAMAGED}")]
     Malformed(String),
     #[error("it is of version {0}, and this program reads version {VERSION}; a newer program may read it")]
     Version(u32),
-    #[error("its scene has errors: {0}")]
+    #[error("its scene has errors: {0}; {DAMAGED}")]
     Scene(String),
-    #[error("{0}")]
+    #[error("{0}; {DAMAGED}")]
     Content(String),
 }
+
+/// A scene is recorded without errors, so that whatever is wrong became so later.
+const DAMAGED: &str = "the file is damaged: record again (`polyscene record`), or ask for another copy of it";
 
 impl RecordingFile {
     pub(super) fn new(scene_name: &str, scene: &[u8], method: Method) -> Self {
@@ -146,9 +154,9 @@ impl RecordingFile {
     /// Reads a file's bytes and checks all that they claim.
     pub fn read(bytes: &[u8]) -> Result<Self, RecordingError> {
         let malformed = |error: serde_json::Error| RecordingError::Malformed(error.to_string());
-        let head: Head = serde_json::from_slice(bytes).map_err(malformed)?;
+        let head: Head = serde_json::from_slice(bytes).map_err(|error| headless(bytes, &error))?;
         if head.format != FORMAT {
-            return Err(RecordingError::Malformed(format!("its format is “{}”", escaped(&head.format))));
+            return Err(RecordingError::Foreign(format!("its format is “{}”", escaped(&head.format))));
         }
         if head.version != VERSION {
             return Err(RecordingError::Version(head.version));
@@ -186,8 +194,8 @@ impl RecordingFile {
         match (problem, document.scene()) {
             (None, Some(scene)) => Ok(scene.clone()),
             (problem, _) => {
-                let text = problem.map_or("it means nothing", |problem| &problem.message);
-                Err(RecordingError::Scene(text.to_owned()))
+                let text = problem.map_or_else(|| "it means nothing".to_owned(), placed);
+                Err(RecordingError::Scene(text))
             }
         }
     }
@@ -208,26 +216,6 @@ impl RecordingFile {
         }
         before + 1
     }
-
-    /// Numbers that a run could not take.
-    fn check(&self) -> Result<(), RecordingError> {
-        let wrong = |what: &str| Err(RecordingError::Content(what.to_owned()));
-        let moments = self.edits.iter().map(|edits| edits.at).chain([self.end]);
-        if !moments.clone().all(|moment| moment.time.is_finite() && moment.time >= 0.0) {
-            return wrong("a time in it is not one of a run");
-        }
-        if !moments.clone().zip(moments.skip(1)).all(|(a, b)| a.is_not_after(b)) {
-            return wrong("its edits are not in the order of their times");
-        }
-        if !self.steps.iter().all(|steps| steps.dt.is_finite() && steps.dt > 0.0) {
-            return wrong("a Δt in it is not above zero");
-        }
-        let count = self.steps.iter().try_fold(0_u64, |sum, steps| sum.checked_add(steps.count));
-        if count.is_none_or(|count| count > MOST_STEPS) {
-            return wrong("it has more Δt than a run can have taken");
-        }
-        self.method().map(|_| ())
-    }
 }
 
 /// What is looked at before the rest.
@@ -235,4 +223,19 @@ impl RecordingFile {
 struct Head {
     format: String,
     version: u32,
+}
+
+/// What begins as recordings do was one; anything else never was.
+fn headless(bytes: &[u8], error: &serde_json::Error) -> RecordingError {
+    let named = bytes.windows(FORMAT.len()).take(HEAD_BYTES).any(|text| text == FORMAT.as_bytes());
+    let kind = if named { RecordingError::Malformed } else { RecordingError::Foreign };
+    kind(error.to_string())
+}
+
+/// A problem with the line of the scene that it stands in.
+fn placed(problem: &Diagnostic) -> String {
+    match problem.position {
+        Some((line, column)) => format!("line {line}, column {column}: {}", problem.message),
+        None => problem.message.clone(),
+    }
 }

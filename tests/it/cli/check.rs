@@ -215,3 +215,24 @@ fn tiles_and_masses_are_checked_too() {
     assert!(outcome.stderr.contains("fitted the tiles"), "{}", outcome.stderr);
     assert_eq!(outcome.stdout, "");
 }
+
+/// Symptom: a scene that ran with a warning was made one with an error, and written. Cause: what was put right was not looked at.
+#[test]
+fn a_fix_that_makes_errors_is_not_written() {
+    let bench = Bench::new();
+    let huge = BOUNCE.replace("<Radius F32=\"0,5\" />", "<Radius F32=\"1e300\" />");
+    bench.write("huge.xml", huge.clone());
+    assert_eq!(bench.polyscene(&["check", "huge.xml"]).code, 0);
+    for fix in [&["check", "--fix", "huge.xml"][..], &["check", "--fix", "huge.xml", "-o", "fixed.xml"]] {
+        let outcome = bench.polyscene(fix);
+        assert_eq!(outcome.code, 1, "{}", outcome.stderr);
+        assert!(
+            outcome.stderr.contains("huge.xml: the fix is not written, it would make "),
+            "{}",
+            outcome.stderr
+        );
+        assert!(outcome.stderr.contains("1 file not fixed"), "{}", outcome.stderr);
+        assert!(!bench.path("fixed.xml").exists());
+        assert_eq!(std::fs::read_to_string(bench.path("huge.xml")).unwrap(), huge);
+    }
+}

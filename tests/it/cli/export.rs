@@ -104,6 +104,15 @@ fn a_scene_of_another_program_is_imported() {
     assert!(refused.stderr.contains("--leave-out") && !bench.path("new.xml").exists());
     let rest = bench.polyscene(&["import", "hinge.xml", "-o", "new.xml", "--leave-out"]);
     assert_eq!(rest.code, 0, "{}", rest.stderr);
+    // with a pull that no run can go on with
+    bench.write(
+        "pull.xml",
+        "<mujoco><option gravity='0 0 -1e300'/><worldbody>\n<body><freejoint/>\n<geom size='1'/></body></worldbody></mujoco>",
+    );
+    let pull = bench.polyscene(&["import", "pull.xml", "-o", "pulled.xml", "--leave-out"]);
+    assert!(pull.code == 1 && !bench.path("pulled.xml").exists(), "{}", pull.stderr);
+    assert!(pull.stderr.contains("pull.xml:3:1: error: body "), "{}", pull.stderr);
+    assert!(pull.stderr.contains("pull.xml was not imported: the scene that comes of it"), "{}", pull.stderr);
     for arguments in [&["hinge.xml", "-o", "hinge.xml"][..], &["hinge.xml", "-o", "back.xml"], &["none.xml"]]
     {
         let outcome = bench.polyscene(&[&["import"], arguments].concat());

@@ -85,15 +85,23 @@ fn what_is_no_recording_is_refused_with_its_reason() {
     bench.write("newer.psrec", text.replacen("\"version\": 1", "\"version\": 7", 1));
     bench.write("cut.psrec", &text[..text.len() / 2]);
     bench.write("base64.psrec", text.replacen("\"scene\": \"", "\"scene\": \"*", 1));
+    let mut broken: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    // an element that is not closed, in line 2
+    broken["scene"] = "PFBvbHlQaHlzaWNzWG1sIFZlcnNpb249IjEuMCI+CjxNYXA+PC9Qb2x5UGh5c2ljc1htbD4K".into();
+    bench.write("broken.psrec", broken.to_string());
     bench.write("method.psrec", text.replacen("\"exact\"", "\"guess\"", 1));
     bench.write("step.psrec", text.replacen("\"dt\": 0.0", "\"dt\": -0.0", 1));
     let cases = [
-        ("scene.psrec", "not a recording"),
+        ("scene.psrec", "not a recording: expected value at line 1 column 1; a recording (.psrec) is what"),
         ("newer.psrec", "version 7"),
-        ("cut.psrec", "not a recording"),
+        ("cut.psrec", "this recording cannot be read: EOF while parsing"),
+        ("cut.psrec", "the file is damaged: record again (`polyscene record`), or ask for another copy"),
         ("base64.psrec", "not base64"),
+        ("base64.psrec", "the file is damaged: record again"),
+        ("broken.psrec", "its scene has errors: line 2, column "),
+        ("broken.psrec", "the file is damaged: record again"),
         ("method.psrec", "no method “guess”"),
-        ("step.psrec", "Δt in it is not above zero"),
+        ("step.psrec", "steps[0].dt is -0.0"),
         ("missing.psrec", "cannot read missing.psrec"),
     ];
     for (file, hint) in cases {
@@ -106,6 +114,28 @@ fn what_is_no_recording_is_refused_with_its_reason() {
     let kept = bench.polyscene(&["record", "scene.xml", "--until", "1", "-o", "run.psrec"]);
     assert_eq!(kept.code, 2, "{}", kept.stderr);
     assert_eq!(bench.read("run.psrec"), text);
+}
+
+/// Symptom: a recording that claims an end at 1.8e19 s was run for ever, and one with a Δt of 1e300 s was taken as it is.
+#[test]
+fn numbers_that_no_run_has_are_refused_by_the_name_of_their_field() {
+    let bench = recorded();
+    let good: serde_json::Value = serde_json::from_str(&bench.read("run.psrec")).expect("JSON");
+    for (pointer, value, expected) in [
+        ("/steps/0/dt", 1e300, "steps[0].dt is 1e300, and has to be above 0 and at most 1e9 s"),
+        ("/steps/0/count", 0.0, "steps[0].count is 0, and has to be at least 1"),
+        ("/checkpoints/0/at/time", -1.0, "checkpoints[0].at.time is -1.0, and has to be from 0 to 1e9 s"),
+        ("/checkpoints/0/at/time", 1.8e19, "checkpoints[0].at.time is 1.8e19"),
+        ("/end/time", 1.8e19, "end.time is 1.8e19, and has to be from 0 to 1e9 s"),
+    ] {
+        let mut bad = good.clone();
+        let whole = pointer.ends_with("count");
+        *bad.pointer_mut(pointer).expect(pointer) = if whole { 0_u64.into() } else { value.into() };
+        bench.write("bad.psrec", bad.to_string());
+        let outcome = bench.polyscene(&["replay", "bad.psrec"]);
+        assert_eq!(outcome.code, 2, "{pointer}: {}", outcome.stderr);
+        assert!(outcome.stderr.contains(expected), "{pointer}: {}", outcome.stderr);
+    }
 }
 
 /// What was recorded is what the scene does: the motion of a recording, looked up, is byte for byte that of its scene,
