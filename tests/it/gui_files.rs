@@ -75,6 +75,9 @@ fn the_start_card_waits_for_the_question_of_unsaved_work() {
         drop(session);
         let mut window = Window::with_storage(folder);
         assert!(window.has("Recover unsaved work") && !window.has("Empty scene"), "{:?}", window.labels());
+        let beside = egui::pos2(20.0, 400.0);
+        window.drag(&[beside, beside], egui::PointerButton::Primary, Modifiers::NONE);
+        assert!(window.has("Recover unsaved work"), "a click beside a question answers nothing");
         window.click_role(Role::Button, answer);
         assert!(!window.has("Recover unsaved work"));
         assert_eq!(window.has("Empty scene"), !is_restored);

@@ -33,7 +33,7 @@ type ScanCase = (&'static str, &'static [(&'static str, &'static str)], &'static
 
 #[test]
 fn the_scan_follows_paths_to_the_file_that_defines_the_item() {
-    let cases: [ScanCase; 10] = [
+    let cases: [ScanCase; 11] = [
         ("a path to a sibling", &[("x/a.rs", "use super::b::B;"), ("x/b.rs", "pub struct B;")], &["a b"]),
         (
             "a group, an alias and a glob",
@@ -98,6 +98,14 @@ fn the_scan_follows_paths_to_the_file_that_defines_the_item() {
                 ("x/b.rs", "struct B;\n#[cfg(test)]\nmod tests {\n    use super::super::a::T;\n}\n"),
             ],
             &[],
+        ),
+        (
+            "unit tests in a file of their own",
+            &[
+                ("x/mod.rs", "mod a;\n#[cfg(test)]\nmod tests;\n\nuse a::B;\npub struct T;\nfn f(_: B) {}\n"),
+                ("x/a.rs", "use super::T;\npub struct B;"),
+            ],
+            &["a mod", "mod a"],
         ),
     ];
     for (what, files, expected) in cases {
@@ -389,6 +397,9 @@ fn literal_length(code: &str) -> Option<usize> {
 /// Without `#[cfg(test)] mod tests { … }`, which sees its own file from inside.
 fn without_unit_tests(code: &str) -> String {
     let Some((before, tests)) = code.split_once("#[cfg(test)]\nmod ") else { return code.to_owned() };
-    let after = tests.split_once("\n}\n").map_or("", |(_, after)| after);
+    // One in a file of its own is a line here.
+    let is_line = tests.lines().next().is_some_and(|line| line.ends_with(';'));
+    let end = if is_line { "\n" } else { "\n}\n" };
+    let after = tests.split_once(end).map_or("", |(_, after)| after);
     format!("{before}{after}")
 }

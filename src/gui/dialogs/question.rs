@@ -29,7 +29,8 @@ pub fn show(ctx: &Context, question: &Question) -> Option<Answer> {
             answer = answer.or(question.answers().first().copied());
         }
     });
-    if modal.should_close() {
+    // A click beside it answers nothing: what is asked about would be out of sight, and perhaps lost.
+    if modal.should_close() && !modal.backdrop_response.clicked() {
         answer = answer.or(Some(question.dismissal()));
     }
     answer

@@ -1,6 +1,7 @@
 //! What a recording's numbers may be: what a run could have taken, by the limits that runs are held to.
 
-use super::{Moment, RecordingError, RecordingFile};
+use super::error::RecordingError;
+use super::{Moment, RecordingFile};
 use crate::record::limits::LATEST_TIME;
 
 /// Δt of a run: weeks of them at sixty in a second.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::RecordingError;
+use super::error::RecordingError;
 use crate::scene::{NodeKey, Scene, escaped};
 use crate::sim::SimEdit;
 

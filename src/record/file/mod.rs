@@ -2,11 +2,13 @@
 //! Whoever has it runs the same again and sees where, if anywhere, the runs part.
 
 mod check;
+mod error;
 mod keys;
 mod script;
 #[cfg(test)]
 mod tests;
 
+pub use error::RecordingError;
 pub(super) use script::{file_of, write};
 
 use std::path::PathBuf;
@@ -18,11 +20,11 @@ use serde::{Deserialize, Serialize};
 use super::moment::Moment;
 use crate::scene::{Diagnostic, Document, Scene, escaped};
 use crate::sim::{Method, SimEdit};
+use error::VERSION;
 use keys::NamedKey;
 
 /// What the file calls itself.
 const FORMAT: &str = "polyscene recording";
-const VERSION: u32 = 1;
 
 /// Bytes in which it calls itself so.
 const HEAD_BYTES: usize = 200;
@@ -112,26 +114,6 @@ pub struct Written {
     pub path: PathBuf,
     pub problem: Option<String>,
 }
-
-/// Why a recording cannot be used, and the way out.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum RecordingError {
-    #[error(
-        "this is not a recording: {0}; a recording (.psrec) is what `polyscene record` or the editor saves"
-    )]
-    Foreign(String),
-    #[error("this recording cannot be read: {0}; {DAMAGED}")]
-    Malformed(String),
-    #[error("it is of version {0}, and this program reads version {VERSION}; a newer program may read it")]
-    Version(u32),
-    #[error("its scene has errors: {0}; {DAMAGED}")]
-    Scene(String),
-    #[error("{0}; {DAMAGED}")]
-    Content(String),
-}
-
-/// A scene is recorded without errors, so that whatever is wrong became so later.
-const DAMAGED: &str = "the file is damaged: record again (`polyscene record`), or ask for another copy of it";
 
 impl RecordingFile {
     pub(super) fn new(scene_name: &str, scene: &[u8], method: Method) -> Self {

@@ -2,8 +2,9 @@
 
 use std::iter::Peekable;
 
+use super::error::RecordingError;
 use super::keys;
-use super::{Checkpoint, EditsAt, RecordingError, RecordingFile, Steps, WriteRequest, Written};
+use super::{Checkpoint, EditsAt, RecordingFile, Steps, WriteRequest, Written};
 use crate::record::command::{Goal, RunCommand};
 use crate::record::moment::Moment;
 use crate::record::run::Run;
