@@ -234,14 +234,15 @@ impl App {
     /// At the end of every turn of the window.
     pub(super) fn run_script(&mut self, ctx: &Context) {
         let Some(mut script) = self.script.take() else { return };
-        if script.bench.is_none() && script.edits.is_none() && script.play.is_none() {
-            self.views.canvas.draw_in_full();
-        }
+        let measures = script.bench.is_some() || script.edits.is_some() || script.play.is_some();
         if self.repaints == 1 {
             let first_frame_s = script.called.elapsed().as_secs_f64();
             script.note(|report| report.first_frame_s = first_frame_s);
         }
-        if self.script_goes_on(ctx, &mut script) {
+        let goes_on = self.script_goes_on(ctx, &mut script);
+        // What a script asks for it waits for; what it measures, and the person after it, see drafts.
+        self.views.canvas.draw_in_full(goes_on && !measures);
+        if goes_on {
             self.script = Some(script);
         }
     }

@@ -112,8 +112,9 @@ fn tiny_warnings(model: &Model, state: &State) -> Vec<Diagnostic> {
 fn friction_warning(model: &Model) -> Option<Diagnostic> {
     let roughness = |body| model.dynamic(body).roughness();
     let is_rough = model.present().any(|body| roughness(body).friction > 0.0);
-    let statics = (0..model.bodies.static_len() as u32).map(BodyId::of_static);
-    if !is_rough && statics.map(|body| model.body(body).roughness()).any(|rough| rough.friction > 0.0) {
+    let mut statics = (0..model.bodies.static_len() as u32).map(BodyId::of_static);
+    let mut is_rough_below = || statics.any(|body| model.body(body).roughness().friction > 0.0);
+    if model.present().next().is_some() && !is_rough && is_rough_below() {
         let message = "there is friction on static bodies alone, and none acts: a pair has √(μ₁μ₂)";
         return Some(about_all(message.into(), "give the moving bodies friction, too"));
     }

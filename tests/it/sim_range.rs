@@ -162,6 +162,19 @@ fn a_ball_smaller_than_the_rounding_of_its_place_is_warned_of() {
     }
 }
 
+/// Symptom: a ramp with friction let balls without any slide on as if it had none, and nobody said so.
+#[test]
+fn friction_on_one_side_alone_is_warned_of() {
+    for (of_ball, of_floor, warnings) in [(0.0, 0.3, 1), (0.3, 0.3, 0), (0.3, 0.0, 0), (0.0, 0.0, 0)] {
+        let floor = static_ball(2, DVec3::new(5.0, 1.0, 5.0), 1.0).friction(of_floor);
+        let alone = Simulation::new(&empty().body(floor.clone())).unwrap();
+        assert!(alone.start_warnings().is_empty(), "nothing could rub");
+        let scene = empty().body(floor).body(ball(1, DVec3::splat(5.0), DVec3::ZERO).friction(of_ball));
+        let sim = Simulation::new(&scene).unwrap();
+        assert_eq!(sim.start_warnings().len(), warnings, "{of_ball}, {of_floor}: {:?}", sim.start_warnings());
+    }
+}
+
 #[test]
 fn a_spin_whose_energy_is_no_number_is_refused() {
     let mut scene = empty().body(ball(1, DVec3::splat(5.0), DVec3::ZERO).radius(0.5));

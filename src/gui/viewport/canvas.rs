@@ -47,10 +47,10 @@ impl Canvas {
         self.gpu.as_ref().map_or(0, |gpu| gpu.redraws.load(Ordering::Relaxed))
     }
 
-    /// Draws every picture in full from now on.
-    pub fn draw_in_full(&self) {
+    /// Whether every picture is drawn in full from now on.
+    pub fn draw_in_full(&self, on: bool) {
         if let Some(gpu) = &self.gpu {
-            gpu.drafts().in_full = true;
+            gpu.drafts().in_full = on;
         }
     }
 

@@ -66,12 +66,11 @@ pub(in crate::sim) fn least_elastic_crowd(
 /// least will do.
 pub(in crate::sim) fn may_be_crowd(
     state: &State,
-    bodies: impl Iterator<Item = u32>,
+    mut bodies: impl Iterator<Item = u32>,
     least: usize,
     time: f64,
 ) -> bool {
     let Some(dense) = &state.dense else { return false };
-    let mut bodies = bodies;
     least <= LEAST_CROWD || bodies.any(|body| time >= dense.activity[body as usize].alone_until)
 }
 
