@@ -2,9 +2,10 @@
 
 use glam::DVec3;
 
+use super::converge::Solution;
 use super::rub::Rubbing;
 use super::stepped::{Contact, Near, Stepped};
-use super::sweep::{Solution, System};
+use super::sweep::System;
 use crate::sim::pair::Pair;
 
 /// What a dynamic body is to stepped groups.
@@ -54,8 +55,6 @@ pub(in crate::sim) struct Member {
     /// How often its step is halved to converge, and how many steps in a row since then took few sweeps.
     pub halvings: u8,
     pub easy: u8,
-    /// In how many steps its contacts are to be solved at once before sweeps are tried again.
-    pub tough: u8,
     /// Whether another dynamic body is listed with it.
     pub has_company: bool,
     /// Whether its segment is one of a group, which is a step of the leapfrog.
@@ -107,8 +106,6 @@ pub(super) struct Work {
     /// How many of them it began with, and how many of those are kept from steps before, to converge.
     pub first_halvings: u8,
     pub kept_halvings: u8,
-    /// Whether sweeps do not get there, so that it is solved at once.
-    pub is_tough: bool,
     /// Whether it lies still and comes to rest instead.
     pub is_still: bool,
 }

@@ -13,8 +13,8 @@ use super::solve::{Landing, find_contacts, solve_contacts};
 use super::start::read_bodies;
 use super::stepped::{Contact, FIXED, Stepped, velocity};
 use super::tolerance::{
-    EASY_STEPS, MOST_ATTEMPTS, MOST_HALVINGS, MOST_HALVINGS_TO_CONVERGE, MOST_SWEEPS, TOUGH_STEPS,
-    TURN_IN_A_STEP, WAY_OF_RADIUS,
+    EASY_STEPS, MOST_ATTEMPTS, MOST_HALVINGS, MOST_HALVINGS_TO_CONVERGE, MOST_SWEEPS, TURN_IN_A_STEP,
+    WAY_OF_RADIUS,
 };
 use crate::sim::account::angular;
 use crate::sim::body::BodyId;
@@ -279,7 +279,6 @@ fn reached_frozen(
 fn propose(model: &Model, state: &mut State, dense: &Dense, component: &mut Component, time: f64) {
     let by_pull = component.work.bodies.iter().map(|body| body.halvings_by_pull).max().unwrap_or(0);
     begin_halved(model, dense, component, by_pull);
-    component.work.is_tough = tough_steps(dense, component) > 0;
     loop {
         let work = &mut component.work;
         work.end = step_end(model.dense_step, work.halvings, time);
@@ -304,11 +303,6 @@ fn propose(model: &Model, state: &mut State, dense: &Dense, component: &mut Comp
         state.counters.halvings += 1;
         work.halvings += 1;
     }
-}
-
-/// Steps in which a component is to be solved at once yet.
-fn tough_steps(dense: &Dense, component: &Component) -> u8 {
-    component.slots.iter().map(|slot| dense.members[*slot as usize].tough).max().unwrap_or(0)
 }
 
 /// How often the step of a component must be halved at least: as often as steps before to converge, or once less after
@@ -361,15 +355,10 @@ fn carry_out(
     state.counters.steps += 1;
     state.counters.contacts += work.contacts.len() as u64;
     state.account.impact_losses.add(work.solution.loss);
-    let tough = match tough_steps(dense, component) {
-        0 if work.is_tough => TOUGH_STEPS,
-        left => left.saturating_sub(1),
-    };
     for slot in slots {
         let member = &mut dense.members[*slot as usize];
         note_length(member, work);
         member.is_stepped = true;
-        member.tough = tough;
         member.idle = member.idle.saturating_add(1);
     }
     let h = work.end - time;

@@ -8,16 +8,18 @@
 //!
 //! `data` is what is stored, `stepped` what a step works on; `activity` decides who enters, `membership` takes them in;
 //! `list` keeps who is near whom, found by `cells`, and `components` who goes together; `contact` makes the bounds of a
-//! step, `solve` has them solved: by `sweep`, with friction by `rub`, or by `direct` where few resist; `group_step` does
-//! all that for the bodies that are due, and `rest` finds out who lies still or has left. `view` is what can be seen of it.
+//! step, and `solve` has them solved: in `converge` by `sweep`, with friction by `rub`, and where few resist by `block`;
+//! `group_step` does all that for the bodies that are due, and `rest` finds out who lies still or has left. `view` is
+//! what can be seen of it.
 
 mod activity;
+mod block;
 mod cells;
 mod clock;
 mod components;
 mod contact;
+mod converge;
 mod data;
-mod direct;
 mod group_step;
 mod list;
 mod membership;

@@ -1,12 +1,11 @@
-//! The contacts of a component in one step: found, and solved by sweeps or at once.
+//! The contacts of a component in one step: found, and solved.
 
 use super::contact::{contact, is_far, stays_apart};
+use super::converge::solve;
 use super::data::{Component, Dense, Work};
-use super::direct::solve_at_once;
 use super::start::law_of;
 use super::stepped::{Contact, Moving, velocity};
-use super::sweep::{Solution, closing, solve};
-use super::tolerance::BUDGET;
+use super::sweep::closing;
 use crate::sim::model::Model;
 use crate::sim::state::State;
 
@@ -49,7 +48,7 @@ pub(super) fn solve_contacts(
     landing: Landing,
 ) {
     let Component { near, work, .. } = component;
-    let Work { bodies, contacts, waiting, system, rubbing, solution, is_tough, .. } = work;
+    let Work { bodies, contacts, waiting, system, rubbing, solution, .. } = work;
     let land = |contact: Contact| match landing {
         Landing::OrRebound => contact,
         Landing::Only => Contact { bound: contact.bound.min(0.0), ..contact },
@@ -68,22 +67,5 @@ pub(super) fn solve_contacts(
         });
     };
     let law = |contact: &Contact| law_of(model, dense, contact);
-    if *is_tough
-        && rubbing.is_empty()
-        && let Some(found) = solve_at_once(system, contacts, bodies, h, &mut meet)
-        && found.has_converged
-    {
-        *solution = found;
-        return;
-    }
     *solution = solve(system, contacts, bodies, h, (rubbing, &law), &mut meet);
-    let is_deep = |contact: &Contact| -contact.gap > BUDGET * contact.radius;
-    // The friction of a step is found by sweeps alone.
-    if rubbing.is_empty()
-        && (!solution.has_converged || contacts.iter().any(is_deep))
-        && let Some(found) = solve_at_once(system, contacts, bodies, h, &mut meet)
-    {
-        *is_tough |= found.has_converged;
-        *solution = Solution { sweeps: solution.sweeps, ..found };
-    }
 }

@@ -79,22 +79,33 @@ pub(super) const FINEST_OF_DEEP: f64 = 0.1;
 /// Sweeps before a step is halved.
 pub(super) const MOST_SWEEPS: usize = 400;
 
-/// Up to so many contacts of a step that does not converge, or in which one has used up its budget, are solved at once from
-/// their loads, which costs some n³ where all hang together: more take longer than shorter steps.
-pub(super) const MOST_SOLVED_AT_ONCE: usize = 256;
+/// After so many sweeps, and as many again, the contacts that still change are solved together: fewer do so in vain what
+/// sweeps would, and more sweep in vain.
+pub(super) const SWEEPS_TO_BLOCK: usize = 16;
 
-/// Up to so many are searched for where loads do not tell them, which costs ten times as much: fewer leave what eight balls
-/// in a pit touch to sweeps, in which a light ball between heavy ones enters them.
-pub(super) const MOST_SEARCHED: usize = 48;
+/// These are the ones that change by more than this part of what is tolerated: less are more contacts, more leave out some
+/// that take part.
+pub(super) const SLOW: f64 = 0.3;
 
-/// Steps in which a component is solved at once before sweeps are tried again, after they did not get there: fewer sweep in
-/// vain, more solve at once what a few sweeps would.
-pub(super) const TOUGH_STEPS: u8 = 32;
+/// A contact beyond its budget that sinks by more than this in a step, in radii, is solved with those beside it too: what
+/// 10⁴ steps leave stays below the budget.
+pub(super) const CREEPING: f64 = 2e-8;
+
+/// And so is one that gives more than this part of the energy that a component may gain.
+pub(super) const GIVING: f64 = 0.1;
+
+/// Up to so many are solved together, which costs some n³: more take longer than shorter steps.
+pub(super) const MOST_TOGETHER: usize = 128;
 
 /// More sweeps follow while a component gains more than this part of m·g·r of its smallest body, but no more than so
 /// many.
 pub(super) const GAIN: f64 = 1e-5;
 pub(super) const SWEEPS_AGAINST_GAIN: usize = 100;
+
+/// Where as many sweeps as lie between blocks leave more than half of a gain, and that is no more than so many times what is
+/// allowed, no more follow: impulses in a jam change too slowly for it. More, and gains add up; less, and jams are swept in
+/// vain.
+pub(super) const LITTLE_GAIN: f64 = 10.0;
 
 /// A step that gains more than so many times what is allowed has not converged, and is halved in the end: after a hard
 /// blow the impulses are so large that what little the sweeps leave counts.

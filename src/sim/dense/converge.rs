@@ -1,0 +1,264 @@
+//! The contacts of a component in one step, swept until what still changes is tolerated.
+
+use super::block::solve_together;
+use super::rub::{LawOf, Rubbing};
+use super::stepped::{Contact, Moving, Stepped};
+use super::sweep::{Judgement, Row, System};
+use super::tolerance::{
+    BUDGET, COARSEST, FINEST, FINEST_OF_DEEP, GAIN, GROSS_GAIN, LITTLE_GAIN, MOST_SWEEPS, SHARE_OF_BUDGET,
+    SHARE_OF_WAY, SWEEPS_AGAINST_GAIN, SWEEPS_TO_BLOCK,
+};
+
+/// What became of the contacts of a component in a step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Solution {
+    /// Energy that the contacts took, J.
+    pub loss: f64,
+    pub sweeps: usize,
+    pub has_converged: bool,
+    /// Whether it gains so much that it must not be taken.
+    pub gains: bool,
+}
+
+/// Solves the contacts of a component in a step of length h. Their impulses are where it begins, and what it finds.
+/// `meet` adds contacts that are seen to be met.
+pub(super) fn solve(
+    system: &mut System,
+    contacts: &mut Vec<Contact>,
+    bodies: &[Stepped],
+    h: f64,
+    (rubbing, law): (&mut Rubbing, &LawOf<'_>),
+    mut meet: impl FnMut(&[Moving], &mut Vec<Contact>),
+) -> Solution {
+    let tolerance = Tolerance::of(bodies, h);
+    let row_of = |contact: &Contact| tolerance.row(contact);
+    let scale_of = |contact: &Contact| tolerance.row(contact).scale;
+    let rub_on = |system: &mut System, rubbing: &mut Rubbing, first: usize, contacts: &[Contact]| {
+        let rows = rubbing.len();
+        rubbing.add(first, &contacts[first..], bodies, (h, &scale_of), law);
+        rubbing.warm_up(rows, bodies, &mut system.moving);
+    };
+    system.begin(bodies, h);
+    system.add(contacts, row_of);
+    rub_on(system, rubbing, 0, contacts);
+    let allowed = allowed_gain(bodies);
+    let mut effort = Effort { has_blocks: rubbing.is_empty(), ..Effort::default() };
+    let mut solution = Solution::default();
+    let judged = loop {
+        if effort.sweeps >= MOST_SWEEPS {
+            let judged = system.judge(contacts, h, rubbing);
+            solution.gains = gains_grossly(judged.loss, allowed);
+            break judged;
+        }
+        if !effort.sweep(system, rubbing) {
+            continue;
+        }
+        let before = contacts.len();
+        meet(&system.moving, contacts);
+        if contacts.len() > before {
+            system.add(&contacts[before..], row_of);
+            rub_on(system, rubbing, before, contacts);
+            solution.has_converged = false;
+            continue;
+        }
+        let judged = system.judge(contacts, h, rubbing);
+        solution.gains = gains_grossly(judged.loss, allowed);
+        solution.has_converged = !judged.sinks && !solution.gains;
+        if effort.is_enough(judged, solution.gains, allowed) {
+            break judged;
+        }
+        let creeping = |system: &System| system.creeping(contacts, h, allowed);
+        effort.go_on(system, rubbing, creeping);
+    };
+    solution.sweeps = effort.sweeps;
+    solution.loss = judged.loss;
+    for (contact, impulse) in contacts.iter_mut().zip(&system.impulses) {
+        contact.impulse = *impulse;
+    }
+    solution
+}
+
+/// How much was done in a step so far.
+#[derive(Clone, Copy, Debug, Default)]
+struct Effort {
+    sweeps: usize,
+    /// Those after all changes were small enough.
+    extra: usize,
+    /// How often slow rows were solved together.
+    blocks: usize,
+    /// Whether rows may be: the bounds of friction move with the impulses, so that those that rub are left to sweeps.
+    has_blocks: bool,
+    /// What the contacts took when it was last asked whether more sweeps are any good, J, and whether they were none.
+    last_loss: f64,
+    is_vain: bool,
+}
+
+impl Effort {
+    /// Sweeps once, and goes on from there unless what changed is tolerated; whether it is.
+    fn sweep(&mut self, system: &mut System, rubbing: &mut Rubbing) -> bool {
+        let worst = system.sweep(self.sweeps % 2 == 1, rubbing);
+        self.sweeps += 1;
+        if worst <= 1.0 {
+            return true;
+        }
+        let is_slow = self.has_blocks && self.sweeps.is_multiple_of(SWEEPS_TO_BLOCK);
+        if is_slow && solve_together(system, system.slow(), self.blocks) {
+            self.blocks += 1;
+        } else {
+            system.go_on(rubbing);
+        }
+        false
+    }
+
+    /// Whether nothing is left to do where all changes are small enough, or it is in vain.
+    fn is_enough(&mut self, judged: Judgement, gains: bool, allowed: f64) -> bool {
+        if self.extra.is_multiple_of(SWEEPS_TO_BLOCK) {
+            self.is_vain = self.extra > 0 && -judged.loss > -0.5 * self.last_loss;
+            self.last_loss = judged.loss;
+        }
+        let is_vain = self.is_vain && !judged.sinks && -judged.loss <= LITTLE_GAIN * allowed;
+        let is_tired = (is_vain || self.extra >= SWEEPS_AGAINST_GAIN) && !gains;
+        let creeps = self.has_blocks && self.extra == 0 && judged.creeps;
+        is_tired || (!judged.sinks && !creeps && -judged.loss <= allowed)
+    }
+
+    /// Goes on although all changes are small enough.
+    fn go_on(&mut self, system: &mut System, rubbing: &Rubbing, creeping: impl Fn(&System) -> Vec<usize>) {
+        let is_block = self.has_blocks && self.extra.is_multiple_of(SWEEPS_TO_BLOCK);
+        let rings = 1 + self.extra / SWEEPS_TO_BLOCK;
+        if !(is_block && solve_together(system, creeping(system), rings)) {
+            system.go_on(rubbing);
+        }
+        self.extra += 1;
+    }
+}
+
+/// Whether contacts that take this energy, J, give so much that a step has not converged.
+fn gains_grossly(loss: f64, allowed: f64) -> bool {
+    -loss > GROSS_GAIN * allowed
+}
+
+/// Energy that what the sweeps leave may add, J.
+fn allowed_gain(bodies: &[Stepped]) -> f64 {
+    let moving = bodies.iter().filter(|body| body.inverse_mass > 0.0);
+    let least = moving.map(|body| body.drive * body.radius / body.inverse_mass);
+    GAIN * least.fold(f64::INFINITY, f64::min)
+}
+
+/// What changes of an impulse are tolerated at last: see [`super::tolerance`].
+struct Tolerance {
+    /// Of the way that bodies pass in a step on average, m.
+    way: f64,
+    /// Length of the step, s.
+    h: f64,
+}
+
+impl Tolerance {
+    fn of(bodies: &[Stepped], h: f64) -> Self {
+        let mean: f64 = bodies.iter().map(|body| body.u.length_squared()).sum::<f64>() / bodies.len() as f64;
+        Self { way: SHARE_OF_WAY * h * mean.sqrt(), h }
+    }
+
+    /// min(clamp(0.1 h u, 2e-6 r, 1e-4 r), max((6e-4 r + g)/4, 2e-7 r)), m.
+    fn of_contact(&self, contact: &Contact) -> f64 {
+        let (finest, coarsest) = (FINEST * contact.radius, COARSEST * contact.radius);
+        let left = SHARE_OF_BUDGET * (BUDGET * contact.radius + contact.gap);
+        self.way.clamp(finest, coarsest).min(left.max(FINEST_OF_DEEP * finest))
+    }
+
+    fn row(&self, contact: &Contact) -> Row {
+        let [x, y, z] = contact.normal.to_array();
+        Row {
+            normal: [x, y, z, 0.0],
+            bound: contact.bound,
+            mass: 1.0 / contact.inverse_mass,
+            scale: contact.inverse_mass * self.h / self.of_contact(contact),
+            ends: [contact.a, contact.b],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::super::stepped::FIXED;
+    use super::*;
+
+    const G: f64 = 10.0;
+    const H: f64 = 1.0 / 1024.0;
+    const RADIUS: f64 = 0.05;
+
+    fn ball(mass: f64) -> Stepped {
+        let a = DVec3::NEG_Y * G;
+        Stepped { a, drive: G, inverse_mass: 1.0 / mass, radius: RADIUS, ..Stepped::FIXED }
+    }
+
+    /// What lies on body b, or on the floor, at rest so far, with a gap.
+    fn lies(bodies: &[Stepped], a: u32, b: u32, gap: f64) -> Contact {
+        let inverse_mass = |body: u32| bodies.get(body as usize).map_or(0.0, |body| body.inverse_mass);
+        Contact {
+            listed: 0,
+            a,
+            b,
+            normal: DVec3::NEG_Y,
+            gap,
+            rate: 0.0,
+            bound: if gap < 0.0 { 0.0 } else { -gap / H },
+            inverse_mass: inverse_mass(a) + inverse_mass(b),
+            radius: RADIUS,
+            impulse: 0.0,
+            is_lazy: false,
+        }
+    }
+
+    /// Columns of balls one upon the other, without a force between them yet.
+    fn columns(masses: &[&[f64]]) -> (Vec<Stepped>, Vec<Contact>) {
+        let bodies: Vec<Stepped> = masses.iter().copied().flatten().map(|mass| ball(*mass)).collect();
+        let mut contacts = Vec::new();
+        let mut place = 0;
+        for column in masses {
+            for floor in 0..column.len() as u32 {
+                let below = if floor == 0 { FIXED } else { place - 1 };
+                contacts.push(lies(&bodies, place, below, 0.0));
+                place += 1;
+            }
+        }
+        (bodies, contacts)
+    }
+
+    fn solved(bodies: &[Stepped], contacts: &mut Vec<Contact>) -> Solution {
+        solve(&mut System::default(), contacts, bodies, H, (&mut Rubbing::default(), &|_| None), |_, _| {})
+    }
+
+    #[test]
+    fn light_balls_bear_heavy_ones_at_once() {
+        let even: &[f64] = &[1.0, 1.0];
+        let uneven: &[f64] = &[1e-3, 1e3, 1e-2, 1e3];
+        let mut masses = vec![even; 150];
+        masses[70] = uneven;
+        let (bodies, mut contacts) = columns(&masses);
+        let solution = solved(&bodies, &mut contacts);
+        assert!(solution.has_converged && solution.sweeps < 100, "{solution:?}");
+        let carried = contacts.iter().find(|contact| contact.a == 140).map_or(0.0, |contact| contact.impulse);
+        let weight = uneven.iter().sum::<f64>() * G * H;
+        assert!((carried - weight).abs() < 1e-6 * weight, "{carried} of {weight}");
+    }
+
+    /// A ball wedged between normals that all but oppose each other: what each sweep changes is tolerated long before
+    /// the ball is borne, W/(2 sin α) on either side.
+    #[test]
+    fn what_is_wedged_and_has_used_up_its_budget_sinks_no_more() {
+        let bodies = [ball(1.0)];
+        let slope = 1e-3;
+        let side = |x: f64| {
+            let normal = DVec3::new(x, -slope, 0.0).normalize();
+            Contact { normal, ..lies(&bodies, 0, FIXED, -1.5 * BUDGET * RADIUS) }
+        };
+        let mut contacts = vec![side(1.0), side(-1.0)];
+        let solution = solved(&bodies, &mut contacts);
+        assert!(solution.has_converged, "{solution:?}");
+        let borne: f64 = contacts.iter().map(|contact| -contact.normal.y * contact.impulse).sum();
+        assert!((borne - G * H).abs() < 1e-6 * G * H, "{borne}");
+    }
+}
