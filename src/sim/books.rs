@@ -270,6 +270,10 @@ pub(super) fn book_kick(model: &Model, state: &mut State, body: u32, time: f64, 
         let of_drag = kick - (0.5 * (time - segment.start)) * rise;
         state.account.dissipated.add(-mass * of_drag.dot(v + 0.5 * kick));
     }
+    if model.plan.spin {
+        let torque = angular(state.position(body, time), mass * kick);
+        state.account.angular.torque_impulse.add(torque);
+    }
 }
 
 /// ∫ F dt of all forces on the body along its segment up to `time`, N·s. In free flight through a field the

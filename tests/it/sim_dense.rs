@@ -145,6 +145,21 @@ fn an_attractor_that_nobody_is_near_shortens_no_steps() {
     assert!(alone > 100.0 && beside_one <= 3.0 * alone, "{beside_one} steps, and {alone} without it");
 }
 
+/// Symptom: a residual of 1e-6 in the angular momentum of a heap that rubs, beside an attractor. Cause: what the pull changed by
+/// from step to step was not in the books.
+#[test]
+fn a_heap_that_rubs_beside_an_attractor_keeps_its_books_of_angular_momentum() {
+    let heap = Heap::of(27, 0.2, 1);
+    let beside = dvec3(2.2, 1.0 - 8.0 * RADIUS, 2.2);
+    let mut scene = heap.scene().attractor(beside, -0.25 * GRAVITY * 64.0 * RADIUS * RADIUS);
+    scene.bodies = scene.bodies.into_iter().map(|body| body.friction(0.3)).collect();
+    let mut sim = simulation(&scene);
+    advance(&mut sim, 1.0, LOOK);
+    assert!(sim.counters().steps > 100);
+    let angular = sim.angular_momentum().expect("a scene that rubs").residual;
+    assert!(angular <= 1e-13, "residual {angular:e}");
+}
+
 #[test]
 fn a_column_in_single_file_holds() {
     let heap = Heap { width: 2.4 * RADIUS, ..Heap::of(30, 0.2, 6) };
