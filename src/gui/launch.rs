@@ -219,6 +219,11 @@ impl Script {
         self.play.iter_mut().for_each(PlayBench::begin_turn);
     }
 
+    /// Whether a drag goes on without a button that is held.
+    pub(super) fn is_dragging(&self) -> bool {
+        self.edits.as_ref().is_some_and(EditBench::is_dragging)
+    }
+
     /// Whether the window does not show yet what the simulation made of all that it was told; `answered`: whether it
     /// has made it.
     fn waits_for_simulation(&mut self, answered: bool) -> bool {
