@@ -2,6 +2,7 @@
 //! Knows nothing of egui.
 
 mod batch;
+mod beads;
 mod error;
 mod gl;
 mod offscreen;
