@@ -37,7 +37,9 @@ impl Session {
             return Outcome::Done;
         }
         let label = label.unwrap_or_else(|| describe(edit, self.scene()));
-        self.doc.history.push(edited.document, label, &touched, gesture);
+        // While a hand moves nobody asks for the text.
+        let document = if gesture.is_none() { edited.document.written() } else { edited.document };
+        self.doc.history.push(document, label, &touched, gesture);
         if !edited.added.is_empty() {
             self.selection.set(&edited.added);
         }

@@ -99,9 +99,11 @@ impl History {
         self.drop_oldest();
     }
 
-    /// Later edits make a point of their own.
+    /// Later edits make a point of their own. What was not written while the hand moved is written now.
     pub fn end_gesture(&mut self) {
-        self.open = None;
+        if self.open.take().is_some() {
+            self.present.document = self.present.document.written();
+        }
     }
 
     /// Takes back what the open gesture did, leaving nothing to redo. Returns what that touched.

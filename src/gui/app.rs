@@ -147,7 +147,9 @@ impl App {
     /// What happened since the last turn: frames, keys, dropped files.
     fn begin(&mut self, ctx: &Context) {
         // whatever was dragged or picked, it is over when no button is held
-        if self.session.open_gesture().is_some() && !ctx.input(|input| input.pointer.any_down()) {
+        let is_held = ctx.input(|input| input.pointer.any_down())
+            || self.script.as_ref().is_some_and(Script::is_dragging);
+        if self.session.open_gesture().is_some() && !is_held {
             self.session.perform(Action::EndGesture);
         }
         self.session.poll(Instant::now());

@@ -47,6 +47,11 @@ impl EditBench {
         self.done > 0
     }
 
+    /// Whether a hand would hold the button of the mouse now.
+    pub fn is_dragging(&self) -> bool {
+        self.drag.is_some()
+    }
+
     /// The times of all frames.
     pub fn finish(mut self) -> EditTimes {
         self.times.0.iter_mut().for_each(|times| times.sort_by(f64::total_cmp));
@@ -83,6 +88,7 @@ impl App {
             Task::DragOne | Task::DragAll => self.pull(bench, nth),
         }
         if task != Task::Select && nth + 1 == bench.frames {
+            bench.drag = None;
             self.perform(Action::EndGesture);
             self.perform(Action::Command(SessionCommand::Undo));
         }

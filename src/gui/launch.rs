@@ -18,7 +18,7 @@ use super::steps::{Step, counted_step};
 use crate::design::{TOOLS, free_place, is_place};
 use crate::editor::{Action, Outcome, Storage};
 use crate::record::ThreadRunner;
-use crate::render::{png, write_png};
+use crate::render::{check_png_name, png, write_png};
 use crate::scene::{Force, check_writable, same_file, shown_path};
 
 /// How the window opens.
@@ -139,13 +139,14 @@ pub fn run(options: Options) -> Result<Report, GuiError> {
     }
 }
 
-/// Refuses a picture that cannot be written or would replace the scene, before the window opens.
+/// Refuses a picture that is to be no PNG file, cannot be written or would replace the scene, before the window opens.
 fn check_screenshot(options: &Options) -> Result<(), GuiError> {
     let Some(path) = options.screenshot.as_ref().filter(|path| !is_stdout(path)) else { return Ok(()) };
     if options.scene.as_ref().is_some_and(|scene| same_file(path, scene)) {
         let text = format!("--screenshot would overwrite the scene {}", shown_path(path));
         return Err(GuiError::Script(text));
     }
+    check_png_name(path).map_err(|refusal| GuiError::Script(format!("--screenshot {refusal}")))?;
     check_writable(path)
         .map_err(|error| GuiError::Script(format!("cannot write {}: {error}", shown_path(path))))
 }
@@ -216,6 +217,11 @@ impl Script {
     /// A turn of the window begins.
     pub(super) fn begin_turn(&mut self) {
         self.play.iter_mut().for_each(PlayBench::begin_turn);
+    }
+
+    /// Whether a drag goes on without a button that is held.
+    pub(super) fn is_dragging(&self) -> bool {
+        self.edits.as_ref().is_some_and(EditBench::is_dragging)
     }
 
     /// Whether the window does not show yet what the simulation made of all that it was told; `answered`: whether it

@@ -63,11 +63,11 @@ impl Batch {
         Self::new(context, &["centerRadius", "color", "ringColor"], &[], &["ringHatch"])
     }
 
-    pub fn fill_spheres(&mut self, spheres: &[Sphere], scale: f32) {
+    pub fn fill_spheres(&mut self, spheres: &[&Sphere], scale: f32) {
         let center = spheres.iter().map(|s| s.center.extend(s.radius).to_array()).collect();
         let color = spheres.iter().map(|s| rgba(s.color)).collect();
         let ring = spheres.iter().map(|s| rgba(s.outline)).collect();
-        let hatch = |s: &Sphere| if s.hatched { HATCH_POINTS * scale } else { 0.0 };
+        let hatch = |s: &&Sphere| if s.hatched { HATCH_POINTS * scale } else { 0.0 };
         let hatch = spheres.iter().map(|s| [s.outline_width * scale, hatch(s)]).collect();
         self.fill(spheres.len(), &[center, color, ring], &[], &[hatch]);
     }
@@ -146,6 +146,6 @@ fn shape_number(shape: PointShape) -> f32 {
     }
 }
 
-fn rgba(color: Color) -> [f32; 4] {
+pub(super) fn rgba(color: Color) -> [f32; 4] {
     color.0.map(|channel| f32::from(channel) / 255.0)
 }

@@ -75,6 +75,19 @@ impl Gl {
         self.switch(glow::SAMPLE_ALPHA_TO_COVERAGE, on);
     }
 
+    /// Draws the first vertices of the buffers that are bound, each as a point of the size that its shader gives it.
+    pub fn draw_points(&self, count: u32) {
+        // OpenGL ES always asks the shader.
+        let is_asked = !self.0.version().is_embedded;
+        if is_asked {
+            self.switch(glow::PROGRAM_POINT_SIZE, true);
+        }
+        unsafe { self.0.draw_arrays(glow::POINTS, 0, count as i32) };
+        if is_asked {
+            self.switch(glow::PROGRAM_POINT_SIZE, false);
+        }
+    }
+
     fn switch(&self, capability: u32, on: bool) {
         unsafe { if on { self.0.enable(capability) } else { self.0.disable(capability) } }
     }

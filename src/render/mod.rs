@@ -2,6 +2,7 @@
 //! Knows nothing of egui.
 
 mod batch;
+mod beads;
 mod error;
 mod gl;
 mod offscreen;
@@ -15,7 +16,7 @@ mod view_target;
 
 pub use error::RenderError;
 pub use offscreen::Offscreen;
-pub use picture::{Tile, png, render_picture, write_png};
+pub use picture::{Tile, check_png_name, png, render_picture, write_png};
 pub use renderer::{PixelRect, Renderer, Showing};
 pub use text::draw_labels;
 pub use view_target::Quality;

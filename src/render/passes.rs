@@ -8,6 +8,7 @@ use three_d::{
 
 use super::RenderError;
 use super::batch::Batch;
+use super::beads::Beads;
 use super::gl::Gl;
 use super::programs::Programs;
 use super::view_target::Quality;
@@ -19,6 +20,8 @@ pub(super) struct Passes {
     programs: Programs,
     background: Batch,
     spheres: Batch,
+    /// Those of the spheres that a draft shows as points.
+    beads: Beads,
     solid_plates: Batch,
     glass_plates: Batch,
     lines: Batch,
@@ -37,6 +40,7 @@ impl Passes {
             programs: Programs::new(&context)?,
             background: Batch::background(&context),
             spheres: Batch::spheres(&context),
+            beads: Beads::new(&context),
             solid_plates: Batch::plates(&context),
             glass_plates: Batch::plates(&context),
             lines: Batch::strokes(&context),
@@ -55,12 +59,16 @@ impl Passes {
     /// Draws the whole list for a picture of `size` pixels; the bound framebuffer has as many as its quality wants.
     pub fn draw(&mut self, list: &DrawList, size: [u32; 2], quality: Quality) {
         let drawn = size.map(|side| quality.pixels(side));
-        self.upload(list, drawn[1] as f32 / size[1].max(1) as f32);
+        let share = drawn[1] as f32 / size[1].max(1) as f32;
+        let scale = share * list.viewport.pixels_per_point as f32;
+        self.upload_spheres(list, drawn[1], scale, quality);
+        self.upload(list, scale);
         let view = View::new(list, drawn);
         self.clear(&view);
         // Orthographic views have a far limit; bodies beyond it are to be seen.
         self.gl().clamp_depth(!list.is_perspective);
         self.draw_plates(&self.solid_plates, &view, SOLID);
+        self.draw_beads(&view);
         self.draw_spheres(&view);
         self.draw_strokes(&self.lines, &view, LINE_PULL, TESTED);
         self.draw_plates(&self.glass_plates, &view, TESTED);
@@ -71,12 +79,21 @@ impl Passes {
         self.draw_strokes(&self.strokes, &view.flat(), 0.0, ON_TOP);
     }
 
-    /// `share` is that of the pixels that are drawn, each way.
-    fn upload(&mut self, list: &DrawList, share: f32) {
-        let scale = share * list.viewport.pixels_per_point as f32;
+    /// `height` and `scale`, pixels per point, are of the picture that is drawn.
+    fn upload_spheres(&mut self, list: &DrawList, height: u32, scale: f32, quality: Quality) {
+        let spheres = match quality {
+            Quality::Full => {
+                self.beads.clear();
+                list.spheres.iter().collect()
+            }
+            Quality::Draft => self.beads.take(list, height, scale),
+        };
+        self.spheres.fill_spheres(&spheres, scale);
+    }
+
+    fn upload(&mut self, list: &DrawList, scale: f32) {
         let (solid, glass): (Vec<_>, Vec<_>) = list.plates.iter().partition(|plate| plate.color.is_opaque());
         self.background.fill_background(list.background);
-        self.spheres.fill_spheres(&list.spheres, scale);
         self.solid_plates.fill_plates(&solid);
         self.glass_plates.fill_plates(&glass);
         self.lines.fill_lines(list.lines.iter().filter(|line| !line.on_top), scale);
@@ -98,6 +115,15 @@ impl Passes {
         self.gl().cover_by_alpha(true);
         self.draw_instances(&self.programs.sphere, &self.spheres, view, 0.0, SOLID);
         self.gl().cover_by_alpha(false);
+    }
+
+    fn draw_beads(&self, view: &View) {
+        if self.beads.count() > 0 {
+            let program = &self.programs.bead;
+            program.use_uniform_if_required("skyward", view.skyward);
+            self.beads.bind(program);
+            program.draw_with(SOLID, view.viewport, || self.gl().draw_points(self.beads.count()));
+        }
     }
 
     fn draw_plates(&self, batch: &Batch, view: &View, states: RenderStates) {

@@ -7,7 +7,7 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder as _, RgbaImage};
 
 use super::{Offscreen, RenderError};
-use crate::scene::write_atomically;
+use crate::scene::{shown_path, write_atomically};
 use crate::view::DrawList;
 
 /// A view's place in a picture, pixels from the top left corner.
@@ -31,6 +31,18 @@ pub fn render_picture(
         image::imageops::replace(&mut picture, &view, i64::from(tile.x), i64::from(tile.y));
     }
     Ok(picture)
+}
+
+/// Refuses a name that promises another format than is written; the error says what to write instead. One without an
+/// ending, such as that of a device, promises none.
+pub fn check_png_name(path: &Path) -> Result<(), String> {
+    match path.extension() {
+        Some(ending) if !ending.eq_ignore_ascii_case("png") => {
+            let (name, better) = (shown_path(path), shown_path(&path.with_extension("png")));
+            Err(format!("{name}: pictures are PNG files; give a name such as {better}"))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Writes a PNG file in one go, so that nobody sees a part of it.

@@ -7,6 +7,7 @@ use super::RenderError;
 pub(super) struct Programs {
     pub background: Program,
     pub sphere: Program,
+    pub bead: Program,
     pub plate: Program,
     pub stroke: Program,
     pub point: Program,
@@ -27,6 +28,7 @@ impl Programs {
         Ok(Self {
             background: compile(shader!("background"))?,
             sphere: compile(shader!("sphere"))?,
+            bead: compile(shader!("bead"))?,
             plate: compile(shader!("plate"))?,
             stroke: compile(shader!("stroke"))?,
             point: compile(shader!("point"))?,

@@ -7,6 +7,8 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
+use glam::DVec3;
+
 use super::encoding::{self, Encoding, Form};
 use super::locate::Index;
 use super::read::{self, Meaning};
@@ -23,7 +25,10 @@ use super::{Diagnostic, NodeKey, NumberStyle, Scene, Severity, locate, parse, sa
 #[derive(Clone)]
 pub struct Document {
     pub(super) source: Arc<Source>,
-    pub(super) content: Content,
+    /// Written when first asked for.
+    pub(super) content: OnceLock<Content>,
+    /// What is to be written, and into what.
+    pub(super) unwritten: Option<Arc<Unwritten>>,
     /// Read when first asked for.
     pub(super) meaning: OnceLock<Arc<Meaning>>,
     /// Where bodies and forces stand; made when first needed.
@@ -35,6 +40,26 @@ pub(super) enum Content {
     Tree(Children),
     /// Bytes that are no well-formed XML, kept as they are, and what is wrong with them.
     Broken(Arc<[u8]>),
+}
+
+/// Bodies that were moved since a document was written.
+pub(super) struct Unwritten {
+    pub before: Document,
+    pub moves: Vec<Move>,
+    /// Writes them into the tree of that document.
+    pub write: fn(&Document, &[Move]) -> Content,
+}
+
+/// A body's new numbers, as far as they are others.
+#[derive(Clone, Copy)]
+pub(super) struct Move {
+    pub key: NodeKey,
+    /// m.
+    pub position: Option<DVec3>,
+    /// rad.
+    pub rotation: Option<DVec3>,
+    /// m/s.
+    pub velocity: Option<DVec3>,
 }
 
 impl Document {
@@ -122,7 +147,7 @@ impl Document {
 
     /// The viewpoints saved with the scene, in the order in which they were saved.
     pub fn viewpoints(&self) -> Vec<Viewpoint> {
-        let Content::Tree(top) = &self.content else { return Vec::new() };
+        let Content::Tree(top) = self.of_same_structure().content() else { return Vec::new() };
         let root = locate::root(top, &self.source.text);
         let written = root.and_then(|root| {
             let instruction = root.raws().find(|raw| read::is_cosmetic(raw))?;
@@ -133,7 +158,7 @@ impl Document {
 
     /// The file's bytes: in the encoding and with the line ends it came with.
     pub fn to_bytes(&self) -> Vec<u8> {
-        match &self.content {
+        match self.content() {
             Content::Tree(top) => {
                 let text = write::children(top, &self.source.text);
                 encoding::encode(&text, self.source.encoding)
@@ -147,7 +172,7 @@ impl Document {
     pub fn text_with_places(&self) -> (String, Vec<(NodeKey, Range<usize>)>) {
         // Bodies and forces are those elements that have been read by themselves.
         self.meaning();
-        match &self.content {
+        match self.content() {
             Content::Tree(top) => write::children_with_places(top, &self.source.text),
             Content::Broken(bytes) => (String::from_utf8_lossy(bytes).into_owned(), Vec::new()),
         }
@@ -160,7 +185,7 @@ impl Document {
 
     /// What stands outside any element, and the root.
     pub(super) fn top(&self) -> impl Iterator<Item = &Child> {
-        let top = match &self.content {
+        let top = match self.content() {
             Content::Tree(top) => Some(top),
             Content::Broken(_) => None,
         };
@@ -174,11 +199,39 @@ impl Document {
 
     pub(super) fn of_tree(source: Arc<Source>, tree: Children) -> Self {
         let (meaning, index) = (OnceLock::new(), OnceLock::new());
-        Self { source, content: Content::Tree(tree), meaning, index }
+        Self { source, content: OnceLock::from(Content::Tree(tree)), unwritten: None, meaning, index }
+    }
+
+    pub(super) fn content(&self) -> &Content {
+        self.content.get_or_init(|| match &self.unwritten {
+            Some(unwritten) => (unwritten.write)(&unwritten.before, &unwritten.moves),
+            None => Content::Broken(Arc::default()),
+        })
+    }
+
+    /// The moves that are still to be written.
+    pub(super) fn unwritten(&self) -> Option<&Unwritten> {
+        self.unwritten.as_deref().filter(|_| self.content.get().is_none())
+    }
+
+    /// This document, or the one that it was before moves that are still to be written: all else stands where it stood.
+    fn of_same_structure(&self) -> &Self {
+        self.unwritten().map_or(self, |unwritten| &unwritten.before)
+    }
+
+    /// The same document with all its moves written, which is otherwise done when its bytes are asked for.
+    pub fn written(&self) -> Self {
+        let content = OnceLock::from(self.content().clone());
+        Self { content, unwritten: None, ..self.clone() }
+    }
+
+    /// Where bodies and forces stand.
+    pub(super) fn index(&self, top: &Children) -> &Index {
+        self.index.get_or_init(|| Arc::new(locate::index(top, &self.source.text)))
     }
 
     pub(super) fn meaning(&self) -> &Meaning {
-        self.meaning.get_or_init(|| match &self.content {
+        self.meaning.get_or_init(|| match self.content() {
             Content::Tree(top) => Arc::new(read::read(&self.source, top)),
             Content::Broken(_) => Arc::default(),
         })
@@ -186,10 +239,10 @@ impl Document {
 
     /// The elements from the root down to the one with that key; empty if there is none.
     fn chain(&self, key: NodeKey) -> Vec<View<'_>> {
-        let Content::Tree(top) = &self.content else { return Vec::new() };
+        let document = self.of_same_structure();
+        let Content::Tree(top) = document.content() else { return Vec::new() };
         let text = &self.source.text;
-        let index = self.index.get_or_init(|| Arc::new(locate::index(top, text)));
-        match (index.get(&key), locate::root(top, text)) {
+        match (document.index(top).get(&key), locate::root(top, text)) {
             (Some(&(list, at)), Some(root)) => locate::item_chain(root, list, at),
             _ => locate::chain(top, text, key),
         }
@@ -201,7 +254,8 @@ impl Document {
         let meaning = Meaning { diagnostics: vec![diagnostic], ..Meaning::default() };
         Self {
             source: Arc::new(Source::new(String::new(), encoding, None, Arc::new(Keys::starting_at(1)))),
-            content: Content::Broken(bytes.into()),
+            content: OnceLock::from(Content::Broken(bytes.into())),
+            unwritten: None,
             meaning: OnceLock::from(Arc::new(meaning)),
             index: OnceLock::new(),
         }

@@ -18,7 +18,7 @@ pub struct XmlElement<'a> {
 impl Document {
     /// The root element as plain XML; `None` for what is not well-formed.
     pub fn xml_root(&self) -> Option<XmlElement<'_>> {
-        let Content::Tree(top) = &self.content else { return None };
+        let Content::Tree(top) = self.content() else { return None };
         let view = locate::root(top, &self.source.text)?;
         Some(XmlElement { view, source: &self.source })
     }

@@ -54,7 +54,7 @@ fn change(model: &mut Model, state: &mut State, edit: &SimEdit) -> Result<Option
                 return Err(EditRefused(format!("force {} is there already", force.label)));
             }
             check_force(force).map_err(|problem| EditRefused(problem.message))?;
-            model.forces.push(ForceEntry { key: Some(force.key), law: Law::from_kind(&force.kind) });
+            ForceEntry::of(force).put_into(&mut model.forces);
             Ok(None)
         }
         SimEdit::ChangeForce(force) => {
@@ -79,7 +79,7 @@ pub(super) fn add_custom(
     force: Arc<dyn Force>,
 ) -> Result<(), EditRefused> {
     let before = Books::read(model, state);
-    model.forces.push(ForceEntry { key: None, law: Law::Custom(force) });
+    ForceEntry::custom(force).put_into(&mut model.forces);
     plan_anew(model, state);
     restart_all(model, state, &before, &[None]).map_err(|fault| EditRefused(fault.to_string()))
 }

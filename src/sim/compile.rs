@@ -1,4 +1,4 @@
-//! Scene → model and state: sorts bodies by UserID, makes the tiles, decides the plan.
+//! Scene → model and state: sorts bodies and forces by UserID, makes the tiles, decides the plan.
 
 use std::sync::Arc;
 
@@ -6,7 +6,7 @@ use glam::{DMat3, DVec3};
 
 use super::body::{Bodies, Body, Identity, Origin, Rare};
 use super::dense::set_step;
-use super::force::{ForceEntry, Law};
+use super::force::ForceEntry;
 use super::method::Method;
 use super::model::Model;
 use super::plan::plan_of;
@@ -40,11 +40,8 @@ pub(super) fn compile(scene: &Scene, method: Method) -> Result<(Model, Vec<Origi
     if !problems.is_empty() {
         return Err(problems);
     }
-    let forces = scene
-        .forces
-        .iter()
-        .map(|force| ForceEntry { key: Some(force.key), law: Law::from_kind(&force.kind) })
-        .collect();
+    let mut forces: Vec<ForceEntry> = scene.forces.iter().map(ForceEntry::of).collect();
+    forces.sort_by_key(|force| force.id);
     let largest = bodies.dynamic().iter().map(|body| body.shape.radius()).fold(0.0, f64::max);
     let tile_limit = scene.params.static_tile_limit as u64;
     let grid = coarse_enough(Grid::new(&scene.map, largest), &scene.map, &bodies, tile_limit);

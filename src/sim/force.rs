@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::place::Place;
-use crate::scene::{ForceKind, NodeKey};
+use crate::scene::{self, ForceKind, NodeKey};
 
 /// What a force may look at: the time and the body's own state. A force between two moving bodies is
 /// not possible, since each body's motion is computed alone.
@@ -94,7 +94,27 @@ pub trait Force: Debug + Send + Sync {
 pub(super) struct ForceEntry {
     /// `None` for a force added by code.
     pub key: Option<NodeKey>,
+    /// UserID of the file, by which forces are summed up: the order in the file makes no difference to the bit. Those added by
+    /// code come last.
+    pub id: i64,
     pub law: Law,
+}
+
+impl ForceEntry {
+    pub fn of(force: &scene::Force) -> Self {
+        Self { key: Some(force.key), id: force.id, law: Law::from_kind(&force.kind) }
+    }
+
+    pub fn custom(force: Arc<dyn Force>) -> Self {
+        Self { key: None, id: i64::MAX, law: Law::Custom(force) }
+    }
+
+    /// Takes its place among the others.
+    pub fn put_into(self, forces: &mut Vec<Self>) {
+        let place =
+            forces.partition_point(|other| (other.id, other.key.is_none()) <= (self.id, self.key.is_none()));
+        forces.insert(place, self);
+    }
 }
 
 #[derive(Clone, Debug)]

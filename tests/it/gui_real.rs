@@ -330,6 +330,18 @@ fn a_picture_of_the_window_never_replaces_its_scene() {
     assert_eq!(std::fs::read(&scene).unwrap(), before);
 }
 
+/// Symptom: `--screenshot window.jpg` wrote a PNG file of that name. Expected: refused before the window opens, as
+/// `render --out` refuses it.
+#[test]
+fn a_picture_of_the_window_is_named_as_what_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let (scene, picture) = (sample_path("orbit"), folder.path().join("window.jpg"));
+    let (code, said) = scripted(&[scene.to_str().unwrap(), "--screenshot", picture.to_str().unwrap()]);
+    assert_eq!(code, Some(2), "{said}");
+    assert!(said.contains("window.jpg: pictures are PNG files; give a name such as "), "{said}");
+    assert!(!picture.exists());
+}
+
 /// Symptom: `--screenshot` of a scene that is not there, or has errors, ended with 0. Expected: exit code 1, and a picture
 /// only where there is something to show.
 #[test]

@@ -271,6 +271,40 @@ fn a_draft_looks_like_the_picture_and_makes_way_for_it() {
     assert!(off / (draft.as_raw().len() as u64) < 4, "and shows the same at the same place");
 }
 
+/// Small balls of a draft are points, which are cut off by their middle and have a largest size.
+#[test]
+fn balls_of_a_draft_hide_each_other_and_are_cut_off_by_the_border_as_in_full() {
+    let scene = Scene {
+        bodies: vec![
+            green(ball(1, dvec3(5.0, 5.0, 2.0), 0.5)),
+            red(ball(2, dvec3(5.2, 5.0, 8.0), 0.5)),
+            green(ball(3, dvec3(0.1, 5.0, 5.0), 0.6)),
+            red(ball(4, dvec3(-0.2, 8.0, 5.0), 0.6)),
+            green(ball(5, dvec3(5.0, 1.0, 5.0), 2.0)),
+        ],
+        ..empty()
+    };
+    let camera = Camera { target: DVec3::splat(5.0), yaw: 0.0, pitch: 0.0, ..ortho() };
+    let input = ViewInput {
+        overlays: OverlaySet::NONE,
+        ..ViewInput::new(&scene, camera, Viewport::new(SIDE, SIDE, 1.0))
+    };
+    let mut list = build_draw_list(&input);
+    list.revision = 7;
+    let mut offscreen = Offscreen::new().unwrap();
+    let mut renderer = Renderer::new(offscreen.gl().clone()).unwrap();
+    offscreen.bind_window([SIDE as u32; 2]).unwrap();
+    let rect = PixelRect { x: 0, y: 0, width: SIDE as i32, height: SIDE as i32 };
+    let [draft, full] = [Quality::Draft, Quality::Full].map(|quality| {
+        renderer.paint(0, &list, Showing { rect, clip: rect, quality }).unwrap();
+        offscreen.read_window().unwrap()
+    });
+    for channel in [0, 1] {
+        let (draft, full) = (area(&draft, channel), area(&full, channel));
+        assert!(full > 1000.0 && (draft / full - 1.0).abs() < 0.08, "{channel}: {draft} and {full} pixels");
+    }
+}
+
 #[test]
 fn a_picture_too_large_for_the_driver_is_an_error() {
     let scene = empty();

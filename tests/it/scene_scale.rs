@@ -60,6 +60,43 @@ fn edits_of_many_bodies_at_once_agree_with_a_fresh_read() {
     }
 }
 
+/// A hand moves many bodies from frame to frame: what they mean is there at once, the text when it is asked for.
+#[test]
+fn many_moves_of_a_hand_write_what_moves_one_by_one_write() {
+    let document = many(200);
+    let keys = document.scene().unwrap().bodies.iter().map(|body| body.key).collect::<Vec<_>>();
+    let position = |at: usize, step: f64| BodyChange::Position(DVec3::new(step, at as f64, 6.0));
+    let velocity = |step: f64| BodyChange::Velocity(DVec3::new(0.1, -step, 1.0 / 3.0));
+    let frame = |step: f64| {
+        let both = |(at, &key): (usize, &_)| {
+            [position(at, step), velocity(step)].map(|change| Edit::Body { key, change })
+        };
+        keys.iter().enumerate().flat_map(both).collect::<Vec<_>>()
+    };
+    let (mut dragged, mut one_by_one) = (document.clone(), document.clone());
+    for step in [0.25, 7.0, 1.0 / 3.0] {
+        let edited = dragged.apply(&Edit::All(frame(step))).unwrap();
+        assert_eq!(edited.touched.keys.iter().copied().collect::<Vec<_>>(), keys);
+        dragged = edited.document;
+        assert_eq!(dragged.place_of(keys[7]), document.place_of(keys[7]));
+    }
+    for edit in frame(1.0 / 3.0) {
+        one_by_one = one_by_one.apply(&edit).unwrap().document;
+    }
+    assert_eq!(dragged.scene(), one_by_one.scene());
+    let clone = dragged.clone();
+    assert!(dragged.to_bytes() == one_by_one.to_bytes(), "the same text");
+    assert!(clone.written().to_bytes() == one_by_one.to_bytes(), "and of a copy");
+    assert!(same_meaning(&dragged, &Document::from_bytes(&dragged.to_bytes())));
+    let renamed = Edit::Body { key: keys[0], change: BodyChange::Name(Some("a".into())) };
+    let renamed = clone.apply(&renamed).unwrap().document;
+    assert!(same_meaning(&renamed, &Document::from_bytes(&renamed.to_bytes())));
+    let half = Edit::All(frame(2.0).split_off(100));
+    let half = clone.apply(&half).unwrap().document;
+    assert!(same_meaning(&half, &Document::from_bytes(&half.to_bytes())), "others than before");
+    assert!(clone.apply(&Edit::All(frame(f64::NAN))).is_err());
+}
+
 /// Symptom: 96 MB of `<a/>` took 4.1 GB of memory. Expected: a file of elements that are shorter than any of the
 /// format is refused where that begins to count; the shortest bodies, however many, are not.
 #[test]

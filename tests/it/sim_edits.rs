@@ -111,6 +111,22 @@ fn attractor_may_be_switched_on_and_off() {
     assert!((state_of(&sim, 1).position - expected).length() <= 1e-12);
 }
 
+/// Forces are summed up by their UserIDs, whenever they were added.
+#[test]
+fn forces_that_come_and_go_add_up_to_the_same_bits() {
+    let scene = thesis().attractor(dvec3(1.0, 2.0, 3.0), 0.7).gravity(-1.0 / 3.0).gravity(0.1);
+    let [first, .., last] = scene.forces.as_slice() else { panic!("forces") };
+    let [a, b] = [first, last].map(|force| {
+        let mut sim = simulation(&scene);
+        let mut events = advance(&mut sim, 1.0, Sampling::Every(0.25));
+        let again = [SimEdit::Remove(force.key), SimEdit::AddForce(Box::new(force.clone()))];
+        assert!(sim.apply_all(&again).iter().all(Result::is_ok));
+        events.extend(advance(&mut sim, 4.0, Sampling::Every(0.25)));
+        finished(&sim, events)
+    });
+    assert_same_bits(&a, &b, "the first or the last force added again");
+}
+
 #[test]
 fn moved_static_is_met_at_its_new_place() {
     let scene = empty().body(wall_at(6.0)).ball(2, dvec3(2.0, 5.0, 5.0), DVec3::X);

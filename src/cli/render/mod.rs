@@ -6,7 +6,7 @@ mod studio;
 mod times;
 
 use std::io::IsTerminal as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 
 use clap::{Args, ValueEnum};
@@ -17,7 +17,7 @@ use self::studio::Studio;
 use super::limits::LimitArgs;
 use super::output::{self, is_stdout};
 use super::{CliError, input, interrupt, method, number};
-use crate::scene::shown_path;
+use crate::render::check_png_name;
 use crate::sim::Method;
 use crate::view::{OVERLAYS, OverlaySet, Theme};
 
@@ -113,7 +113,7 @@ pub(super) fn render(args: &RenderArgs) -> Result<(), CliError> {
     let paths = paths(args, times.len())?;
     for path in &paths {
         output::refuse_bad("--out", path, ("the scene", &args.scene), args.force)?;
-        refuse_other_format(path)?;
+        check_png_name(path).map_err(|refusal| CliError::Usage(format!("--out {refusal}")))?;
     }
     let mut watchdog = args.limits.watchdog();
     let name = input::display_name(&args.scene);
@@ -167,18 +167,6 @@ fn paths(args: &RenderArgs, count: usize) -> Result<Vec<PathBuf>, CliError> {
         return Err(CliError::Usage(message.into()));
     }
     Ok(vec![args.out.clone()])
-}
-
-/// A name that promises another format than is written. One without an ending, such as that of a device, promises none.
-fn refuse_other_format(path: &Path) -> Result<(), CliError> {
-    match path.extension() {
-        Some(ending) if !ending.eq_ignore_ascii_case("png") => {
-            let (name, better) = (shown_path(path), shown_path(&path.with_extension("png")));
-            let message = format!("--out {name}: pictures are PNG files; give a name such as {better}");
-            Err(CliError::Usage(message))
-        }
-        _ => Ok(()),
-    }
 }
 
 /// Of a sequence, on a terminal.

@@ -59,13 +59,15 @@ impl Canvas {
         self.gpu.as_ref().is_some_and(|gpu| gpu.drafts().has_drafts(is_shown))
     }
 
-    /// Puts a view's picture and labels at `rect`. `view` distinguishes the views.
-    pub fn draw(&self, ui: &Ui, view: usize, rect: Rect, list: &Arc<DrawList>) {
+    /// Puts a view's picture and labels at `rect`. `view` distinguishes the views; `waits` says that it is to show something
+    /// else as soon as it has its turn.
+    pub fn draw(&self, ui: &Ui, (view, waits): (usize, bool), rect: Rect, list: &Arc<DrawList>) {
         let painter = ui.painter_at(rect);
         let [top, _] = list.background;
         painter.rect_filled(rect, 0.0, color32(top));
         if let Some(gpu) = &self.gpu {
-            let (quality, again_s) = gpu.drafts().quality(view, list.revision, ui.input(|input| input.time));
+            let now_s = ui.input(|input| input.time);
+            let (quality, again_s) = gpu.drafts().quality(view, (list.revision, waits), now_s);
             if let Some(again_s) = again_s {
                 ui.ctx().request_repaint_after(Duration::from_secs_f64(again_s));
             }

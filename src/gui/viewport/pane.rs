@@ -108,7 +108,7 @@ impl Pane {
         let kept = self.cache.kept().filter(|_| waits && !self.cache.knows(&input, scenery.shown.revision));
         let behind = kept.is_some();
         let list = kept.unwrap_or_else(|| self.cache.get(&input, scenery.shown.revision));
-        scenery.canvas.draw(ui, self.index, rect, &list);
+        scenery.canvas.draw(ui, (self.index, behind), rect, &list);
 
         self.draw_rubber_band(ui, rect);
         let seen = (&input.camera, input.viewport);

@@ -4,6 +4,7 @@ mod body;
 mod compose;
 mod cosmetic;
 mod force;
+mod moves;
 mod order;
 mod patch;
 mod pen;
@@ -136,6 +137,9 @@ pub enum EditError {
 impl Document {
     /// Applies an edit. The document it is applied to stays as it is, and is what undo goes back to.
     pub fn apply(&self, edit: &Edit) -> Result<Edited, EditError> {
+        if let Some(moved) = moves::moved(self, edit) {
+            return Ok(moved);
+        }
         let mut work = work::Work::on(self)?;
         work.apply(edit)?;
         work.finish()

@@ -13,9 +13,6 @@ use crate::scene::NodeKey;
 use crate::scene::locate::List;
 use crate::scene::tree::{Child, Children, RawKind, Splice, raw_kind};
 
-/// As many forces add up to the same bits in any order.
-const FORCES_THAT_COMMUTE: usize = 2;
-
 impl Work<'_> {
     /// Puts elements of one list before or after another of it, in the order that they have.
     pub fn reorder(&mut self, keys: &[NodeKey], side: Side, anchor: NodeKey) -> Result<(), EditError> {
@@ -44,8 +41,8 @@ impl Work<'_> {
         Ok(())
     }
 
-    /// Refuses an order that would mean something else: bodies of one UserID are told apart by it, those without get
-    /// theirs by it, and sums of many forces are rounded by it.
+    /// Refuses an order that would mean something else: what has one UserID is told apart by it, and what has none gets
+    /// its UserID by it.
     fn check_order(
         &self,
         list: List,
@@ -55,11 +52,6 @@ impl Work<'_> {
         let items = self.items_with_places(list);
         let places: Vec<usize> = items.iter().map(|(at, _)| *at).collect();
         let after = reordered(&places, moved, (side, anchor));
-        if list == List::Forces && items.len() > FORCES_THAT_COMMUTE && !after.is_sorted() {
-            let message = "more than two forces keep their order: the simulation adds them up in it, and another one \
-                           would round the sums differently";
-            return Err(EditError::Invalid(message.into()));
-        }
         let ids: FxHashMap<usize, Option<i64>> =
             items.iter().map(|(at, el)| (*at, self.written_id(el))).collect();
         let mut last = FxHashMap::default();

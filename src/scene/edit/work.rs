@@ -32,7 +32,7 @@ pub(super) struct Work<'d> {
 
 impl<'d> Work<'d> {
     pub fn on(document: &'d Document) -> Result<Self, EditError> {
-        let Content::Tree(top) = &document.content else {
+        let Content::Tree(top) = document.content() else {
             let first = document.diagnostics().first().map(ToString::to_string).unwrap_or_default();
             let message =
                 format!("the file cannot be edited before it is repaired in a text editor: {first}");
@@ -211,6 +211,11 @@ impl<'d> Work<'d> {
         Ok(())
     }
 
+    /// The tree so far.
+    pub fn tree(self) -> Children {
+        self.top
+    }
+
     pub fn find(&mut self, key: NodeKey) -> Option<(List, usize)> {
         let (top, source) = (&self.top, &self.pen.source.text);
         let index = self.index.get_or_insert_with(|| Arc::new(locate::index(top, source)));
@@ -272,7 +277,7 @@ impl<'d> Work<'d> {
     }
 
     fn is_unchanged(&self) -> bool {
-        let Content::Tree(before) = &self.document.content else { return false };
+        let Content::Tree(before) = self.document.content() else { return false };
         let root = |top: &Children| top.iter().find_map(Child::element).cloned();
         match (root(before), root(&self.top)) {
             (Some(before), Some(now)) => Arc::ptr_eq(&before, &now),
@@ -283,7 +288,8 @@ impl<'d> Work<'d> {
     fn make(&self) -> Document {
         Document {
             source: self.document.source.clone(),
-            content: Content::Tree(self.top.clone()),
+            content: OnceLock::from(Content::Tree(self.top.clone())),
+            unwritten: None,
             meaning: OnceLock::new(),
             index: self.index.clone().map(OnceLock::from).unwrap_or_default(),
         }
