@@ -5,8 +5,8 @@ use super::rub::{LawOf, Rubbing};
 use super::stepped::{Contact, Moving, Stepped};
 use super::sweep::{Judgement, Row, System};
 use super::tolerance::{
-    BUDGET, COARSEST, FINEST, FINEST_OF_DEEP, GAIN, GROSS_GAIN, LITTLE_GAIN, MOST_SWEEPS, SHARE_OF_BUDGET,
-    SHARE_OF_WAY, SWEEPS_AGAINST_GAIN, SWEEPS_TO_BLOCK,
+    BUDGET, COARSEST, FINEST, FINEST_OF_DEEP, GAIN, GROSS_GAIN, MOST_GIVEN, MOST_IN_VAIN, MOST_SWEEPS,
+    SHARE_OF_BUDGET, SHARE_OF_WAY, SWEEPS_AGAINST_GAIN, SWEEPS_TO_BLOCK,
 };
 
 /// What became of the contacts of a component in a step.
@@ -26,7 +26,7 @@ pub(super) fn solve(
     system: &mut System,
     contacts: &mut Vec<Contact>,
     bodies: &[Stepped],
-    h: f64,
+    (h, given): (f64, f64),
     (rubbing, law): (&mut Rubbing, &LawOf<'_>),
     mut meet: impl FnMut(&[Moving], &mut Vec<Contact>),
 ) -> Solution {
@@ -42,7 +42,7 @@ pub(super) fn solve(
     system.add(contacts, row_of);
     rub_on(system, rubbing, 0, contacts);
     let allowed = allowed_gain(bodies);
-    let mut effort = Effort { has_blocks: rubbing.is_empty(), ..Effort::default() };
+    let mut effort = Effort { has_blocks: rubbing.is_empty(), given, ..Effort::default() };
     let mut solution = Solution::default();
     let judged = loop {
         if effort.sweeps >= MOST_SWEEPS {
@@ -88,6 +88,8 @@ struct Effort {
     blocks: usize,
     /// Whether rows may be: the bounds of friction move with the impulses, so that those that rub are left to sweeps.
     has_blocks: bool,
+    /// What earlier steps have given beyond what contacts took since, J.
+    given: f64,
     /// What the contacts took when it was last asked whether more sweeps are any good, J, and whether they were none.
     last_loss: f64,
     is_vain: bool,
@@ -116,10 +118,12 @@ impl Effort {
             self.is_vain = self.extra > 0 && -judged.loss > -0.5 * self.last_loss;
             self.last_loss = judged.loss;
         }
-        let is_vain = self.is_vain && !judged.sinks && -judged.loss <= LITTLE_GAIN * allowed;
+        let given = (self.given - judged.loss) / allowed;
+        let is_vain = self.is_vain && !judged.sinks && given <= MOST_IN_VAIN;
         let is_tired = (is_vain || self.extra >= SWEEPS_AGAINST_GAIN) && !gains;
         let creeps = self.has_blocks && self.extra == 0 && judged.creeps;
-        is_tired || (!judged.sinks && !creeps && -judged.loss <= allowed)
+        let climbs = -judged.loss > allowed && given > MOST_GIVEN;
+        is_tired || !(judged.sinks || creeps || climbs)
     }
 
     /// Goes on although all changes are small enough.
@@ -228,7 +232,14 @@ mod tests {
     }
 
     fn solved(bodies: &[Stepped], contacts: &mut Vec<Contact>) -> Solution {
-        solve(&mut System::default(), contacts, bodies, H, (&mut Rubbing::default(), &|_| None), |_, _| {})
+        solve(
+            &mut System::default(),
+            contacts,
+            bodies,
+            (H, 0.0),
+            (&mut Rubbing::default(), &|_| None),
+            |_, _| {},
+        )
     }
 
     #[test]

@@ -55,6 +55,8 @@ pub(in crate::sim) struct Member {
     /// How often its step is halved to converge, and how many steps in a row since then took few sweeps.
     pub halvings: u8,
     pub easy: u8,
+    /// Energy that its component was given by what sweeps left, beyond what contacts took since, J.
+    pub given: f64,
     /// Whether another dynamic body is listed with it.
     pub has_company: bool,
     /// Whether its segment is one of a group, which is a step of the leapfrog.
@@ -100,6 +102,8 @@ pub(super) struct Work {
     pub system: System,
     pub rubbing: Rubbing,
     pub solution: Solution,
+    /// Energy that sweeps have given it, J: see [`Member::given`].
+    pub given: f64,
     /// s.
     pub end: f64,
     pub halvings: u8,

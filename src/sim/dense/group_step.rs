@@ -279,6 +279,8 @@ fn reached_frozen(
 fn propose(model: &Model, state: &mut State, dense: &Dense, component: &mut Component, time: f64) {
     let by_pull = component.work.bodies.iter().map(|body| body.halvings_by_pull).max().unwrap_or(0);
     begin_halved(model, dense, component, by_pull);
+    let given = component.slots.iter().map(|slot| dense.members[*slot as usize].given);
+    component.work.given = given.fold(0.0, f64::max);
     loop {
         let work = &mut component.work;
         work.end = step_end(model.dense_step, work.halvings, time);
@@ -358,6 +360,7 @@ fn carry_out(
     for slot in slots {
         let member = &mut dense.members[*slot as usize];
         note_length(member, work);
+        member.given = (work.given - work.solution.loss).max(0.0);
         member.is_stepped = true;
         member.idle = member.idle.saturating_add(1);
     }

@@ -77,6 +77,7 @@ pub(super) fn take_in(state: &mut State, dense: &mut Dense, bodies: &[u32], time
             widened: 0.0,
             halvings: 0,
             easy: 0,
+            given: 0.0,
             has_company: false,
             is_stepped: false,
             idle: 0,

@@ -48,7 +48,7 @@ pub(super) fn solve_contacts(
     landing: Landing,
 ) {
     let Component { near, work, .. } = component;
-    let Work { bodies, contacts, waiting, system, rubbing, solution, .. } = work;
+    let Work { bodies, contacts, waiting, system, rubbing, solution, given, .. } = work;
     let land = |contact: Contact| match landing {
         Landing::OrRebound => contact,
         Landing::Only => Contact { bound: contact.bound.min(0.0), ..contact },
@@ -67,5 +67,5 @@ pub(super) fn solve_contacts(
         });
     };
     let law = |contact: &Contact| law_of(model, dense, contact);
-    *solution = solve(system, contacts, bodies, h, (rubbing, &law), &mut meet);
+    *solution = solve(system, contacts, bodies, (h, *given), (rubbing, &law), &mut meet);
 }

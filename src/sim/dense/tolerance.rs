@@ -97,15 +97,16 @@ pub(super) const GIVING: f64 = 0.1;
 /// Up to so many are solved together, which costs some n³: more take longer than shorter steps.
 pub(super) const MOST_TOGETHER: usize = 128;
 
-/// More sweeps follow while a component gains more than this part of m·g·r of its smallest body, but no more than so
-/// many.
+/// More sweeps follow where a component gains more than this part of m·g·r of its smallest body in a step, and has been given
+/// more than so many times that since its contacts took as much: impulses in a jam give in one step what they take in
+/// another. Less, and jams are swept in vain; more, and it shows.
 pub(super) const GAIN: f64 = 1e-5;
-pub(super) const SWEEPS_AGAINST_GAIN: usize = 100;
+pub(super) const MOST_GIVEN: f64 = 10.0;
 
-/// Where as many sweeps as lie between blocks leave more than half of a gain, and that is no more than so many times what is
-/// allowed, no more follow: impulses in a jam change too slowly for it. More, and gains add up; less, and jams are swept in
-/// vain.
-pub(super) const LITTLE_GAIN: f64 = 10.0;
+/// But no more than so many sweeps, and none once as many as lie between blocks have left more than half of the gain, as long
+/// as not more than so many times that was given.
+pub(super) const SWEEPS_AGAINST_GAIN: usize = 100;
+pub(super) const MOST_IN_VAIN: f64 = 100.0;
 
 /// A step that gains more than so many times what is allowed has not converged, and is halved in the end: after a hard
 /// blow the impulses are so large that what little the sweeps leave counts.
