@@ -55,7 +55,7 @@ fn the_events_of_a_heap_say_how_many_bodies_they_are_about() {
 
 #[test]
 fn a_heap_at_rest_keeps_its_force_chains() {
-    let window = Window::bin("12");
+    let window = Window::bin("21");
     assert!(window.states().iter().all(|state| *state == ContactState::Rest), "{:?}", window.states());
     assert!(window.frame().stepped.is_none() && !window.has_containing("stepped since"));
     let floor = window.body("1").key;

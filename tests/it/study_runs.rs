@@ -190,7 +190,10 @@ fn heaps_are_studied_over_their_step() {
     let steps: Vec<_> = report.points.iter().map(|point| point.group_step).collect();
     assert_eq!(steps, [None, Some(0.5 * own), Some(0.25 * own)], "the scene's own once");
     let overlaps: Vec<f64> = report.points.iter().map(|point| point.worst_overlap).collect();
-    assert!(overlaps[0] > 0.0 && overlaps[2] < overlaps[0], "a shorter step leaves less: {overlaps:?}");
+    // What the solver allows is a share of the radius, 5 cm, whatever the step is.
+    assert!(overlaps.iter().all(|overlap| (1e-6..5e-5).contains(overlap)), "{overlaps:?}");
+    let residuals: Vec<_> = report.points.iter().map(|point| point.momentum_residual).collect();
+    assert!(residuals[0] != residuals[1] && residuals[1] != residuals[2], "runs of their own: {residuals:?}");
     assert!(table(&report).contains(&seconds(0.25 * own)), "{}", table(&report));
 
     let nothing_rests = empty().ball(1, dvec3(1.0, 2.0, 3.0), dvec3(4.0, 5.0, 0.5));
