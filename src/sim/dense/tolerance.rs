@@ -97,7 +97,7 @@ pub(super) const GIVING: f64 = 0.1;
 /// Up to so many are solved together, which costs some n³: more take longer than shorter steps.
 pub(super) const MOST_TOGETHER: usize = 128;
 
-/// More sweeps follow where a component gains more than this part of m·g·r of its smallest body in a step, and has been given
+/// More sweeps follow where a component gains more than this part of the mean m·g·r of its bodies in a step, and has been given
 /// more than so many times that since its contacts took as much: impulses in a jam give in one step what they take in
 /// another. Less, and jams are swept in vain; more, and it shows.
 pub(super) const GAIN: f64 = 1e-5;
