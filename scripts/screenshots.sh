@@ -39,7 +39,7 @@ window timeline thesis-appendix-2 'dt:1/20,step_forward*80,add_bookmark,select:1
 window accuracy thesis-appendix-2 'tab:accuracy,study'
 window tiles gas 'dt:1/10,step_forward*20,view_perspective,overlay:tiles,maximize_view'
 
-"$polyscene" study scenes/thesis-appendix-2.xml --svg screenshots/study.svg >/dev/null
+"$polyscene" study scenes/thesis-appendix-2.xml --svg screenshots/study.svg --force >/dev/null
 
 # Where a scene shows most, in seconds of model time; others are shown at 2 s.
 declare -A moment=([bullet]=0.0101 [cradle]=1 [orbit]=5)
