@@ -29,7 +29,13 @@ fn main() {
     // Roaming, they come to places that the processor's cache does not hold.
     among_statics("roaming", false);
     gases();
+    if std::env::args().any(|argument| argument == LARGE) {
+        large_gases();
+    }
 }
+
+/// Asks for the gases of up to a million spheres too, which take minutes.
+const LARGE: &str = "--large";
 
 fn thesis_scene() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/thesis-appendix-2.xml");
@@ -115,6 +121,43 @@ fn gases() {
 }
 
 const GAS_RUNS: usize = 5;
+
+/// How the impacts per second fall from a thousand spheres to a million.
+fn large_gases() {
+    println!("\nelastic gas in six walls, ever larger, medians of {LARGE_RUNS} runs");
+    println!(
+        "{:>8} {:>8} {:>10} {:>12} {:>10} {:>10}",
+        "N", "packing", "impacts", "impacts/s", "fall", "compile s"
+    );
+    // Some impacts of each sphere go before, so that nothing is left of the lattice.
+    let sizes = [(1000, 2.0, 40.0), (10_000, 0.8, 2.0), (100_000, 0.4, 0.1), (1_000_000, 0.1, 0.01)];
+    for packing in [0.1, 0.3] {
+        let mut rates = [const { Vec::new() }; 4];
+        for round in 1..=LARGE_RUNS {
+            for (index, (count, before, time)) in sizes.into_iter().enumerate() {
+                let scene = gas(count, packing);
+                let start = Instant::now();
+                let mut simulation = Simulation::new(&scene).expect("it compiles");
+                let compile = start.elapsed().as_secs_f64();
+                run(&mut simulation, before);
+                let impacts = simulation.counters().total_events();
+                let start = Instant::now();
+                run(&mut simulation, before + time);
+                let impacts = simulation.counters().total_events() - impacts;
+                rates[index].push(impacts as f64 / start.elapsed().as_secs_f64());
+                if round == LARGE_RUNS {
+                    let rate = median(&mut rates[index]);
+                    let fall = median(&mut rates[0]) / rate;
+                    println!(
+                        "{count:>8} {packing:>8} {impacts:>10} {rate:>12.0} {fall:>10.2} {compile:>10.2}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+const LARGE_RUNS: usize = 3;
 
 fn run(simulation: &mut Simulation, until: f64) {
     simulation.begin(until);

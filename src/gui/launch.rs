@@ -109,6 +109,8 @@ pub fn run(options: Options) -> Result<Report, GuiError> {
         viewport,
         persist_window: !scripted && options.window_size.is_none(),
         persistence_path,
+        // Nothing that is drawn fades over many pixels, and where the processor draws each step of a pixel is felt.
+        dithering: false,
         ..eframe::NativeOptions::default()
     };
     native.glow_options.vsync = !scripted;

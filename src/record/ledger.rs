@@ -236,6 +236,25 @@ impl Ledger {
         self.count_while(|event| event.time <= time)
     }
 
+    /// How many rows happened before each of many times in ascending order.
+    pub fn counts_before(&self, times: impl Iterator<Item = f64>) -> Vec<usize> {
+        let mut first = 0;
+        let mut count = |time: f64| {
+            let is_before = |block: &Arc<Block>| block.events.last().is_some_and(|event| event.time < time);
+            // In ever longer strides, for the next time is mostly near.
+            let mut stride = 1;
+            while self.blocks.get(first + stride - 1).is_some_and(is_before) {
+                first += stride;
+                stride *= 2;
+            }
+            let within = self.blocks.len().min(first + stride - 1);
+            first += self.blocks[first..within].partition_point(is_before);
+            let inside = |block: &Block| block.events.partition_point(|event| event.time < time);
+            (first * BLOCK + self.block(first).map_or(0, inside)).min(self.len)
+        };
+        times.map(&mut count).collect()
+    }
+
     /// How many of the first rows fulfil what no later one does after the first that does not.
     fn count_while(&self, holds: impl Fn(&Event) -> bool) -> usize {
         let before = self.blocks.partition_point(|block| block.events.last().is_some_and(&holds));
@@ -338,6 +357,10 @@ mod tests {
             assert_eq!(ledger.count_until(time), naive, "at {time}");
             let naive = (1..=2000).filter(|seq| ((seq / 2) as f64) < time).count();
             assert_eq!(ledger.count_before(time), naive, "before {time}");
+        }
+        for times in [vec![-1.0, 0.0, 0.5, 1.0, 254.0, 700.0, 999.5, 1000.0, 2000.0], vec![3.0; 4]] {
+            let each: Vec<usize> = times.iter().map(|time| ledger.count_before(*time)).collect();
+            assert_eq!(ledger.counts_before(times.into_iter()), each);
         }
         assert_eq!(
             ledger.iter_from(700).map(|row| row.event.seq).collect::<Vec<_>>(),

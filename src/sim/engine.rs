@@ -49,18 +49,25 @@ pub(super) fn advance(model: &Model, state: &mut State) -> Result<bool, Fault> {
 }
 
 fn pop(state: &mut State, until: f64) -> Option<Predicted> {
-    let mut queue = std::mem::take(&mut state.queue);
-    let mut dropped = 0;
-    let next = queue.pop(until, &mut dropped, |predicted| state.holds(predicted));
-    state.queue = queue;
-    state.counters.stale_events += dropped;
-    next
+    let State { queue, stamps, dense, counters, .. } = state;
+    queue.pop(until, &mut counters.stale_events, |predicted| holds(stamps, dense.as_deref(), predicted))
 }
 
 fn tidy(state: &mut State) {
-    let mut queue = std::mem::take(&mut state.queue);
-    queue.tidy(|predicted| state.holds(predicted));
-    state.queue = queue;
+    let State { queue, stamps, dense, .. } = state;
+    queue.tidy(|predicted| holds(stamps, dense.as_deref(), predicted));
+}
+
+/// Whether a prediction was made for the segments that its bodies still follow.
+#[inline]
+fn holds(stamps: &[u32], dense: Option<&Dense>, predicted: &Predicted) -> bool {
+    if stamps[predicted.a as usize] != predicted.stamp_a {
+        return false;
+    }
+    if predicted.kind == Kind::Reach {
+        return dense.is_some_and(|dense| dense.epoch == predicted.stamp_b);
+    }
+    predicted.b.dynamic().is_none_or(|b| stamps[b as usize] == predicted.stamp_b)
 }
 
 /// Begins segments for all bodies at `state.now` and predicts everything: any of them may be concerned.

@@ -115,7 +115,11 @@ fn predict_leaving(model: &Model, state: &mut State, body: u32, time: f64) -> f6
     let reach = radius + margin;
     let mut leaving = f64::INFINITY;
     for (axis, unit) in DVec3::AXES.into_iter().enumerate() {
-        for (side, bound) in [(1.0, high[axis]), (-1.0, -low[axis])] {
+        // Along an axis on which nothing drives it, a body leaves on the side to which it flies.
+        let ahead = if v[axis] < 0.0 { -1.0 } else { 1.0 };
+        let sides = if path.series.is_none() && a[axis] == 0.0 { 1 } else { 2 };
+        for side in [ahead, -ahead].into_iter().take(sides) {
+            let bound = if side > 0.0 { high[axis] } else { -low[axis] };
             let limit = bound - reach;
             if limit == f64::INFINITY {
                 continue;
@@ -191,12 +195,17 @@ fn sieve(model: &Model, state: &State, others: &mut Vec<u32>, body: u32, time: f
     // Of stepped bodies the present flight tells nothing: it ends with the step.
     let stepped = state.dense.as_deref().filter(|dense| !dense.members.is_empty());
     let is_stepped = |other: u32| stepped.is_some_and(|dense| dense.is_member(other));
-    let passes = |other: u32, reach: f64| {
-        predict::surely_pass(&segment, &state.segments[other as usize], reach, near) && !is_stepped(other)
-    };
-    keep(others, |other| !passes(other, reach));
+    let passes =
+        |other: u32, reach: f64| predict::surely_pass(&segment, &state.segments[other as usize], reach, near);
+    // All are asked for before the first is looked at: memory answers many at once.
+    std::hint::black_box(others.iter().map(|other| state.segments[*other as usize].start).sum::<f64>());
+    if stepped.is_none() {
+        keep(others, |other| !passes(other, reach));
+    } else {
+        keep(others, |other| !passes(other, reach) || is_stepped(other));
+    }
     if least < largest {
-        keep(others, |other| !passes(other, radius + model.radius(other)));
+        keep(others, |other| !passes(other, radius + model.radius(other)) || is_stepped(other));
     }
     if segment.end.is_finite() {
         let path = state.path(body);
@@ -209,7 +218,7 @@ fn sieve(model: &Model, state: &State, others: &mut Vec<u32>, body: u32, time: f
 }
 
 /// As `Vec::retain`, without branches: half of the answers nobody can foretell.
-fn keep(list: &mut Vec<u32>, keeps: impl Fn(u32) -> bool) {
+fn keep(list: &mut Vec<u32>, mut keeps: impl FnMut(u32) -> bool) {
     let mut kept = 0;
     for at in 0..list.len() {
         let body = list[at];
@@ -232,24 +241,20 @@ fn collect(
     let epoch = scratch.epoch;
     scratch.seen_dynamic[body as usize] = epoch;
     let Scratch { seen_dynamic, seen_static, found_dynamic, found_static, .. } = scratch;
-    let mut see_dynamic = |other: u32| {
-        if std::mem::replace(&mut seen_dynamic[other as usize], epoch) == epoch {
-            return;
-        }
-        // With who is in the old tiles too, the next impact is predicted already.
-        if !known.is_some_and(|known| known.overlaps(&state.registered[other as usize])) {
-            found_dynamic.push(other);
-        }
-    };
     let mut see_static = |other: u32| {
         if std::mem::replace(&mut seen_static[other as usize], epoch) != epoch {
             found_static.push(other);
         }
     };
     for_each_brick(&model.grid, range, known, |brick, tiles| {
-        state.dynamic_tiles.visit_brick(brick, tiles, &mut see_dynamic);
+        state.dynamic_tiles.gather(brick, tiles, found_dynamic);
         model.static_tiles.visit_brick(brick, tiles, &mut see_static);
     });
+    keep(found_dynamic, |other| std::mem::replace(&mut seen_dynamic[other as usize], epoch) != epoch);
+    if let Some(known) = known {
+        // With who is in the old tiles too, the next impact is predicted already.
+        keep(found_dynamic, |other| !known.overlaps(&state.registered[other as usize]));
+    }
     if known.is_none() {
         scratch.found_static.extend(model.static_tiles.large());
     }

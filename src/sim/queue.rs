@@ -48,11 +48,18 @@ impl Predicted {
         Pair::of(self.a, self.b)
     }
 
-    /// Ties of time and kind: what is between dynamic bodies first.
     fn key_order(&self, other: &Self) -> Ordering {
-        self.time
-            .total_cmp(&other.time)
-            .then(self.kind.cmp(&other.kind))
+        match self.time.total_cmp(&other.time) {
+            Ordering::Equal => self.tie_order(other),
+            order => order,
+        }
+    }
+
+    /// Ties of time and kind: what is between dynamic bodies first.
+    #[cold]
+    fn tie_order(&self, other: &Self) -> Ordering {
+        self.kind
+            .cmp(&other.kind)
             .then(self.b.is_static().cmp(&other.b.is_static()))
             .then(self.a.cmp(&other.a))
             .then(self.b.cmp(&other.b))

@@ -2,6 +2,7 @@
 
 /// First τ ≥ 0 at which distance + rate·τ + ½·bend·τ² is no longer above zero and falls; `None` if never.
 /// A negative distance counts as zero.
+#[inline]
 pub(super) fn first_root(distance: f64, rate: f64, bend: f64) -> Option<f64> {
     if distance <= 0.0 && rate < 0.0 {
         return Some(0.0);

@@ -42,6 +42,7 @@ pub(super) struct Series {
 }
 
 impl Segment {
+    #[inline]
     pub fn ballistic(start: f64, x: DVec3, v: DVec3, a: DVec3) -> Self {
         Self {
             start,
@@ -71,6 +72,7 @@ pub(super) struct Path<'a> {
 }
 
 impl Path<'_> {
+    #[inline]
     pub fn position(&self, time: f64) -> DVec3 {
         let way = self.way(time);
         self.segment.x + self.series.map_or(way, |series| series.low + way)
@@ -86,6 +88,7 @@ impl Path<'_> {
     }
 
     /// How far the body has come since the start of the segment.
+    #[inline]
     fn way(&self, time: f64) -> DVec3 {
         let seg = self.segment;
         let tau = time - seg.start;
@@ -96,6 +99,7 @@ impl Path<'_> {
         }
     }
 
+    #[inline]
     pub fn velocity(&self, time: f64) -> DVec3 {
         let seg = self.segment;
         let tau = time - seg.start;
@@ -107,10 +111,12 @@ impl Path<'_> {
     }
 
     /// Length of what an acceleration on this path is the sum of.
+    #[inline]
     pub fn acceleration_size(&self, acceleration: DVec3) -> f64 {
         acceleration.length().max(self.segment.acceleration_size)
     }
 
+    #[inline]
     pub fn acceleration(&self, time: f64) -> DVec3 {
         let seg = self.segment;
         match self.series {

@@ -145,6 +145,7 @@ impl State {
         index
     }
 
+    #[inline]
     pub fn path(&self, body: u32) -> Path<'_> {
         let segment = &self.segments[body as usize];
         let series = (segment.step > 0.0).then(|| &self.fields[body as usize].series);
@@ -204,6 +205,7 @@ impl State {
     }
 
     /// The motion of any body.
+    #[inline]
     pub fn path_of<'a>(&'a self, model: &'a Model, id: BodyId) -> Path<'a> {
         match id.dynamic() {
             Some(body) => self.path(body),
@@ -215,22 +217,14 @@ impl State {
         size_of_val(self.segments.as_slice()) + size_of_val(self.fields.as_slice())
     }
 
+    #[inline]
     pub fn position(&self, body: u32, time: f64) -> DVec3 {
         self.path(body).position(time)
     }
 
+    #[inline]
     pub fn velocity(&self, body: u32, time: f64) -> DVec3 {
         self.path(body).velocity(time)
-    }
-
-    /// Whether a prediction was made for the segments that its bodies still follow.
-    pub fn holds(&self, predicted: &Predicted) -> bool {
-        if predicted.kind == Kind::Reach {
-            return self.stamps[predicted.a as usize] == predicted.stamp_a
-                && self.dense.as_ref().is_some_and(|dense| dense.epoch == predicted.stamp_b);
-        }
-        self.stamps[predicted.a as usize] == predicted.stamp_a
-            && predicted.b.dynamic().is_none_or(|b| self.stamps[b as usize] == predicted.stamp_b)
     }
 
     /// A prediction for one body and what is no dynamic body.
@@ -247,6 +241,7 @@ impl State {
     }
 
     /// Whether a body moves for nobody: it is static, or captured.
+    #[inline]
     pub fn is_fixed(&self, id: BodyId) -> bool {
         id.dynamic().is_none_or(|body| self.captured.contains(&body))
     }

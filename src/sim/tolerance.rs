@@ -22,6 +22,10 @@ pub(super) const PRESSURE_ROUNDING: f64 = 1e-12;
 /// the quick test: it would be decided by rounding.
 pub(super) const SURELY_APART: f64 = 1e-9;
 
+/// Rounding of p²v² − (p·v)² as a part of p²v²: of three sums of three products, their products and the difference, some
+/// ten roundings.
+pub(super) const CROSS_ROUNDING: f64 = 1e-14;
+
 // Search for the time of impact.
 
 /// Steps of conservative advancement before the time reached is handed back, to be looked at again from there.

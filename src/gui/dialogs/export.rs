@@ -246,7 +246,8 @@ impl ExportDialog {
     }
 
     fn preview(&self, ui: &mut Ui, ctx: &Context) {
-        let height = (ctx.content_rect().height() - 220.0).clamp(120.0, 360.0);
+        // As high whatever there is to show: a dialog in the middle of the window would move under the pointer.
+        ui.set_height((ctx.content_rect().height() - 170.0).clamp(170.0, 410.0));
         match (&self.outcome, &self.job) {
             (Some(Ok(exported)), _) => {
                 let lines = &exported.report.lines;
@@ -262,8 +263,7 @@ impl ExportDialog {
                     place: None,
                 });
                 let lines: Vec<_> = lines.collect();
-                let area = ScrollArea::vertical().max_height(height).min_scrolled_height(height);
-                area.auto_shrink([false, false]).show(ui, |ui| report::show(ui, &lines));
+                ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| report::show(ui, &lines));
             }
             (Some(Err(problem)), _) => {
                 ui.label(RichText::new(problem).color(tones(ui).error));

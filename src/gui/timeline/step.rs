@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use egui::{Align2, FontId, Pos2, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, Color32, FontId, Mesh, Pos2, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 use crate::editor::Action;
 use crate::gui::colors::{Tones, color32, tones};
@@ -24,6 +24,8 @@ const REACH: f32 = 6.0;
 const MOST_EVENTS: usize = 20_000;
 /// Events up to which each has its mark.
 const ALL_DRAWN: usize = 1000;
+/// How far apart marks must stand on average for their edges to be seen, points.
+const APART: f32 = 6.0;
 /// Places along the line that are told apart where there are more.
 const PLACES_PER_POINT: f32 = 1.0;
 
@@ -50,15 +52,18 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>, crossings: &mut bool) {
     let hovered = response.hover_pos().and_then(|at| axis.nearest(&events, at));
     let largest = events.iter().map(|row| row.event.impulse).fold(0.0, f64::max);
     let shown = context.session.shown_event().filter(|shown| events.contains(shown));
-    for event in axis.marks(&events).into_iter().chain(shown).chain(hovered) {
-        let chosen = shown.is_some_and(|shown| shown.event.seq == event.event.seq);
-        let marked = hovered.is_some_and(|hovered| hovered.event.seq == event.event.seq);
-        let color = match () {
-            () if chosen || marked => color32(context.palette().highlight),
-            () if event.event.seq > frame.event_count => tones.weak,
-            () => tones.strong,
-        };
-        axis.mark(ui, largest, event, color, chosen || marked);
+    let marks = axis.marks(&events);
+    let is_crowd = marks.len() as f32 * APART > axis.line.width();
+    let mut crowd = Mesh::default();
+    for event in marks {
+        let is_to_come = event.event.seq > frame.event_count;
+        let mark =
+            Mark { event, largest, color: if is_to_come { tones.weak } else { tones.strong }, size: 1.0 };
+        if is_crowd { axis.add_to_crowd(&mut crowd, &mark) } else { axis.mark(ui, &mark) }
+    }
+    ui.painter().add(crowd);
+    for event in shown.into_iter().chain(hovered) {
+        axis.mark(ui, &Mark { event, largest, color: color32(context.palette().highlight), size: 1.5 });
     }
     answer(context, &response, &axis, hovered);
     let text = match (hovered, response.hover_pos()) {
@@ -163,6 +168,50 @@ impl Head {
     }
 }
 
+/// How an event is marked.
+struct Mark<'a> {
+    event: &'a EventRow,
+    /// The largest impulse of all, N·s.
+    largest: f64,
+    color: Color32,
+    /// 1 unless it is to stand out.
+    size: f32,
+}
+
+impl Mark<'_> {
+    fn radius(&self) -> f32 {
+        3.0 * self.size
+    }
+
+    fn square(&self, head: Pos2) -> Rect {
+        Rect::from_center_size(head, vec2(1.8, 1.8) * self.radius())
+    }
+
+    fn diamond(&self, head: Pos2) -> [Pos2; 4] {
+        [vec2(0.0, -1.0), vec2(1.0, 0.0), vec2(0.0, 1.0), vec2(-1.0, 0.0)]
+            .map(|corner| head + 1.3 * self.radius() * corner)
+    }
+
+    fn hexagon(&self, head: Pos2) -> [Pos2; 6] {
+        [
+            vec2(1.0, 0.0),
+            vec2(0.5, 0.87),
+            vec2(-0.5, 0.87),
+            vec2(-1.0, 0.0),
+            vec2(-0.5, -0.87),
+            vec2(0.5, -0.87),
+        ]
+        .map(|corner| head + self.radius() * corner)
+    }
+}
+
+/// Adds a convex polygon as a fan of triangles.
+fn add_polygon(mesh: &mut Mesh, corners: &[Pos2], color: Color32) {
+    let first = mesh.vertices.len() as u32;
+    corners.iter().for_each(|corner| mesh.colored_vertex(*corner, color));
+    (1..corners.len() as u32 - 1).for_each(|nth| mesh.add_triangle(first, first + nth, first + nth + 1));
+}
+
 /// The stretch of the screen that stands for the Δt.
 struct Axis {
     line: Rect,
@@ -214,27 +263,39 @@ impl Axis {
         highest.into_iter().flatten().flatten().collect()
     }
 
+    /// The foot of a mark and its head.
+    fn ends(&self, mark: &Mark<'_>) -> [Pos2; 2] {
+        let event = &mark.event.event;
+        let share = if mark.largest > 0.0 { (event.impulse / mark.largest).sqrt() } else { 0.0 };
+        let foot = pos2(self.x(event.time), self.line.bottom() - 2.0);
+        [foot, foot - vec2(0.0, 5.0 + (self.line.height() - 10.0) * share as f32)]
+    }
+
     /// A stem as high as the impulse is large; its head tells who met: a disc for two moving bodies, a
     /// square for one at a static body, a diamond for what is no impact.
-    fn mark(&self, ui: &Ui, largest: f64, row: &EventRow, color: egui::Color32, large: bool) {
-        let event = &row.event;
-        let share = if largest > 0.0 { (event.impulse / largest).sqrt() } else { 0.0 };
-        let bottom = self.line.bottom() - 2.0;
-        let height = 5.0 + (self.line.height() - 10.0) * share as f32;
-        let head = pos2(self.x(event.time), bottom - height);
-        let painter = ui.painter();
-        painter.line_segment([pos2(head.x, bottom), head], Stroke::new(if large { 2.0 } else { 1.0 }, color));
-        let size = if large { 4.5 } else { 3.0 };
-        match Head::of(row) {
-            Head::Disc => drop(painter.circle_filled(head, size, color)),
-            Head::Square => {
-                painter.rect_filled(Rect::from_center_size(head, vec2(1.8, 1.8) * size), 0.0, color);
-            }
+    fn mark(&self, ui: &Ui, mark: &Mark<'_>) {
+        let [foot, head] = self.ends(mark);
+        let (painter, color) = (ui.painter(), mark.color);
+        painter.line_segment([foot, head], Stroke::new(mark.size.round(), color));
+        match Head::of(mark.event) {
+            Head::Disc => drop(painter.circle_filled(head, mark.radius(), color)),
+            Head::Square => drop(painter.rect_filled(mark.square(head), 0.0, color)),
             Head::Diamond => {
-                let corners = [vec2(0.0, -size), vec2(size, 0.0), vec2(0.0, size), vec2(-size, 0.0)];
-                let corners = corners.map(|corner| head + corner * 1.3).to_vec();
+                let corners = mark.diamond(head).to_vec();
                 painter.add(egui::Shape::convex_polygon(corners, color, Stroke::NONE));
             }
+        }
+    }
+
+    /// The same in few triangles, which shows where thousands of marks stand side by side and must be drawn in each frame: a
+    /// disc is a hexagon there, and edges are not smoothed.
+    fn add_to_crowd(&self, crowd: &mut Mesh, mark: &Mark<'_>) {
+        let [foot, head] = self.ends(mark);
+        crowd.add_colored_rect(Rect::from_two_pos(foot - vec2(0.5, 0.0), head + vec2(0.5, 0.0)), mark.color);
+        match Head::of(mark.event) {
+            Head::Disc => add_polygon(crowd, &mark.hexagon(head), mark.color),
+            Head::Square => crowd.add_colored_rect(mark.square(head), mark.color),
+            Head::Diamond => add_polygon(crowd, &mark.diamond(head), mark.color),
         }
     }
 

@@ -7,7 +7,7 @@ use super::approach::{Across, Approach, Way, gone_after};
 use super::gap::{Ball, Gap, snap, snap_pressure};
 use crate::sim::segment::{Path, Segment};
 use crate::sim::shape::direction;
-use crate::sim::tolerance::{STILL, SURELY_APART};
+use crate::sim::tolerance::{CROSS_ROUNDING, STILL, SURELY_APART};
 
 /// Relative motion of `b` as seen from `a`.
 struct Relative {
@@ -93,7 +93,7 @@ fn relative_bound(a: Path<'_>, b: Path<'_>) -> f64 {
 /// bodies overlap in the processor.
 #[inline]
 pub(in crate::sim) fn surely_pass(a: &Segment, b: &Segment, reach: f64, near: f64) -> bool {
-    let from = a.start.max(b.start);
+    let from = if a.start > b.start { a.start } else { b.start };
     let (tau_a, tau_b) = (from - a.start, from - b.start);
     let (p, v) = if (a.acceleration_bound == 0.0) & (b.acceleration_bound == 0.0) {
         ((b.x + tau_b * b.v) - (a.x + tau_a * a.v), b.v - a.v)
@@ -103,8 +103,10 @@ pub(in crate::sim) fn surely_pass(a: &Segment, b: &Segment, reach: f64, near: f6
         let p = (b.x + tau_b * (b.v + (0.5 * tau_b) * b.a)) - (a.x + tau_a * (a.v + (0.5 * tau_a) * a.a));
         (p, (b.v + tau_b * b.a) - (a.v + tau_a * a.a))
     };
-    let apart = p.length_squared() > (reach + near) * (reach + near);
-    apart & ((p.dot(v) >= 0.0) | misses(p, v, reach))
+    let (p2, v2, approach) = (p.length_squared(), v.length_squared(), p.dot(v));
+    // |p×v|² = p²v² − (p·v)², which is sure where it is more than its rounding.
+    let across = p2 * v2 - approach * approach - CROSS_ROUNDING * (p2 * v2);
+    (p2 > (reach + near) * (reach + near)) & ((approach >= 0.0) | (v2 * (reach * reach) < across))
 }
 
 /// Whether two spheres surely stay farther apart than `reach` and `near`, m, while both of their segments last, whatever

@@ -64,12 +64,33 @@ impl DynamicTiles {
         for_each_brick(grid, range, except, |key, mask| self.visit_brick(key, mask, &mut visit));
     }
 
-    /// The same for the tiles of one brick.
-    pub fn visit_brick(&self, key: u64, mask: u64, visit: &mut impl FnMut(u32)) {
+    fn visit_brick(&self, key: u64, mask: u64, visit: &mut impl FnMut(u32)) {
+        self.blocks_of(key, mask, |block| {
+            block.bodies.iter().take(block.len as usize).for_each(|body| visit(*body));
+        });
+    }
+
+    /// Appends the bodies in tiles of one brick to a list, once for each such tile.
+    #[inline]
+    pub fn gather(&self, key: u64, mask: u64, list: &mut Vec<u32>) {
+        self.blocks_of(key, mask, |block| {
+            // A block is copied as a whole: how full it is nobody can foretell.
+            list.extend_from_slice(&block.bodies);
+            list.truncate(list.len() - (BLOCK - block.len as usize));
+        });
+    }
+
+    #[inline]
+    fn blocks_of(&self, key: u64, mask: u64, mut visit: impl FnMut(&Block)) {
         let Some(index) = self.by_key.get(&key) else { return };
         let brick = &self.bricks[*index as usize];
         for slot in slots(mask & brick.occupied) {
-            self.for_each_in_chain(brick.chains[slot], visit);
+            let mut next = brick.chains[slot];
+            while next != NONE {
+                let block = &self.blocks[next as usize];
+                visit(block);
+                next = block.next;
+            }
         }
     }
 
@@ -90,15 +111,6 @@ impl DynamicTiles {
         }
         tiles.sort_unstable();
         tiles
-    }
-
-    fn for_each_in_chain(&self, first: u32, visit: &mut impl FnMut(u32)) {
-        let mut next = first;
-        while next != NONE {
-            let block = &self.blocks[next as usize];
-            block.bodies.iter().take(block.len as usize).for_each(|body| visit(*body));
-            next = block.next;
-        }
     }
 
     fn insert_except(&mut self, grid: &Grid, range: TileRange, except: Option<TileRange>, body: u32) {
