@@ -4,6 +4,8 @@ use glam::DVec3;
 
 use crate::sim::{BodyRef, Event, EventKind};
 use crate::view::camera::is_drawable;
+use crate::view::overlays::crowd::share_of_size;
+use crate::view::overlays::scaled_arrows::width_of;
 use crate::view::stage::Stage;
 use crate::view::{Arrow, DrawList, Point, PointShape};
 
@@ -17,8 +19,9 @@ pub(in crate::view) fn add(stage: &Stage<'_>, list: &mut DrawList) {
     let hits = frame.events.iter().map(|row| &row.event).filter(|event| is_contact(event));
     let count = hits.clone().count();
     let largest = hits.clone().map(|event| event.impulse).fold(0.0, f64::max);
+    let share = share_of_size(stage.input.viewport, count.min(MOST));
     for event in hits.skip(count.saturating_sub(MOST)) {
-        add_contact(stage, list, event, largest);
+        add_contact(stage, list, event, (largest, share));
     }
     if count > MOST || frame.events_truncated {
         list.notes.push(format!("Contacts: only the last {} of the Δt.", count.min(MOST)));
@@ -29,13 +32,14 @@ fn is_contact(event: &Event) -> bool {
     matches!(event.kind, EventKind::Impact | EventKind::Collapse) && is_drawable(event.point)
 }
 
-fn add_contact(stage: &Stage<'_>, list: &mut DrawList, event: &Event, largest: f64) {
-    let share = if largest > 0.0 { event.impulse / largest } else { 0.0 };
-    let points = ARROW_POINTS.0 + (ARROW_POINTS.1 - ARROW_POINTS.0) * share;
+/// `largest`: the largest impulse shown, N·s; `share`: of their size that marks have.
+fn add_contact(stage: &Stage<'_>, list: &mut DrawList, event: &Event, (largest, share): (f64, f64)) {
+    let strength = if largest > 0.0 { event.impulse / largest } else { 0.0 };
+    let points = share * (ARROW_POINTS.0 + (ARROW_POINTS.1 - ARROW_POINTS.0) * strength);
     let tip = event.point + pushed_towards(event) * (points * stage.metres_per_point(event.point));
     let (from, color) = (list.local(event.point), stage.palette.contact);
-    list.arrows.push(Arrow { from, to: list.local(tip), color, width: 2.0 });
-    list.points.push(Point { position: from, color, size: 7.0, shape: PointShape::Disc });
+    list.arrows.push(Arrow { from, to: list.local(tip), color, width: width_of(share) });
+    list.points.push(Point { position: from, color, size: (7.0 * share) as f32, shape: PointShape::Disc });
 }
 
 /// The way in which the impact pushed the body that can move; of two, the second.

@@ -3,6 +3,7 @@
 mod at_impact;
 mod bounds;
 mod contacts;
+mod crowd;
 mod distances;
 mod force_chains;
 mod forces;

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use crate::scene::{Body, Motion, Scene};
 use crate::view::format::round_down_125;
+use crate::view::overlays::crowd::share_of_size;
 use crate::view::stage::Stage;
 use crate::view::{Arrow, Camera, Color, DrawList, Viewport, format::number};
 
@@ -14,6 +15,11 @@ const MOST: usize = 1000;
 const LONGEST: f64 = 90.0;
 const SHORTEST: f64 = 12.0;
 
+/// Width of arrows drawn at a share of their size, points: thin ones that are not lost.
+pub(super) fn width_of(share: f64) -> f32 {
+    (2.0 * share).max(1.0) as f32
+}
+
 /// What the arrows show.
 pub(super) struct Quantity {
     pub name: &'static str,
@@ -21,30 +27,35 @@ pub(super) struct Quantity {
     pub color: Color,
 }
 
-/// How long one unit is drawn, so that the largest vector is as long as an arrow can be.
-fn metres_per_unit(largest: f64, camera: &Camera, viewport: Viewport) -> f64 {
+/// How long one unit is drawn, so that the largest of so many vectors is as long as an arrow can be among them.
+fn metres_per_unit((largest, count): (f64, usize), camera: &Camera, viewport: Viewport) -> f64 {
+    let longest = LONGEST * share_of_size(viewport, count);
     // Rounded, so that arrows do not breathe with every change of the largest.
-    round_down_125(LONGEST * camera.world_per_pixel(viewport.height) / largest)
+    round_down_125(longest * camera.world_per_pixel(viewport.height) / largest)
 }
 
 /// The scale of a view's velocity arrows at the start of a scene. Where nothing moves, it is such that a body
 /// as fast as the longest arrow crosses the map in four seconds.
 pub fn velocity_scale(scene: &Scene, camera: &Camera, viewport: Viewport) -> f64 {
     let speed = |body: &Body| match body.motion {
-        Motion::Dynamic { velocity, .. } if !body.hidden => velocity.length(),
-        _ => 0.0,
+        Motion::Dynamic { velocity, .. } if !body.hidden => Some(velocity.length()),
+        _ => None,
     };
-    let largest = scene.bodies.iter().map(speed).fold(0.0, f64::max);
+    let speeds = scene.bodies.iter().filter_map(speed);
+    let (largest, count) = speeds.fold((0.0, 0), |(largest, count), speed| (speed.max(largest), count + 1));
     let usual = 0.25 * scene.map.size.max_element();
-    metres_per_unit(if largest.is_finite() && largest > 0.0 { largest } else { usual }, camera, viewport)
+    let largest = if largest.is_finite() && largest > 0.0 { largest } else { usual };
+    metres_per_unit((largest, count), camera, viewport)
 }
 
 /// How long one unit of a quantity is drawn, m, so that the largest of some vectors is as long as an arrow can be; `None`
 /// without any.
 pub(super) fn scale(stage: &Stage<'_>, vectors: impl Iterator<Item = DVec3>) -> Option<f64> {
-    let largest = vectors.map(DVec3::length).fold(0.0, f64::max);
+    let lengths = vectors.map(DVec3::length);
+    let (largest, count) =
+        lengths.fold((0.0, 0), |(largest, count), length| (length.max(largest), count + 1));
     let is_drawable = largest.is_finite() && largest > 0.0;
-    is_drawable.then(|| metres_per_unit(largest, &stage.camera, stage.input.viewport))
+    is_drawable.then(|| metres_per_unit((largest, count), &stage.camera, stage.input.viewport))
 }
 
 /// Adds an arrow for each (place, vector), and a line with the scale to the legend.
@@ -84,13 +95,14 @@ fn add_arrows(
     (scale, back): (Option<f64>, f64),
 ) {
     let Some(metres_per_unit) = scale else { return };
+    let share = share_of_size(stage.input.viewport, vectors.len());
     for (place, vector) in vectors.iter().take(MOST) {
         let Some(direction) = vector.try_normalize() else { continue };
-        let shortest = SHORTEST * stage.metres_per_point(*place);
+        let shortest = SHORTEST * share * stage.metres_per_point(*place);
         let arrow = direction * (vector.length() * metres_per_unit).max(shortest);
         let start = *place - back * arrow;
         let (from, to) = (list.local(start), list.local(start + arrow));
-        list.arrows.push(Arrow { from, to, color: quantity.color, width: 2.0 });
+        list.arrows.push(Arrow { from, to, color: quantity.color, width: width_of(share) });
     }
     let Quantity { name, unit, color } = quantity;
     list.legend.push((*color, format!("{name} arrows: 1 m = {} {unit}", number(1.0 / metres_per_unit, 9))));
