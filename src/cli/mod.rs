@@ -14,6 +14,7 @@ mod marks;
 mod method;
 mod number;
 mod output;
+mod progress;
 mod record;
 #[cfg(feature = "render")]
 mod render;

@@ -16,6 +16,7 @@ use self::names::Names;
 use self::studio::Studio;
 use super::limits::LimitArgs;
 use super::output::{self, is_stdout};
+use super::progress::Progress;
 use super::{CliError, input, interrupt, method, number};
 use crate::render::check_png_name;
 use crate::sim::Method;
@@ -126,12 +127,19 @@ pub(super) fn render(args: &RenderArgs) -> Result<(), CliError> {
     };
     let mut studio = Studio::new(args, scene);
     let (bar, stop) = (bar(args, times.len()), args.until.map(|_| interrupt::on_interrupt()));
+    let is_interrupted = || stop.is_some_and(|stop| stop.load(Ordering::Relaxed));
+    // What goes before the first picture.
+    let mut progress = Progress::new(times.first().copied().unwrap_or_default(), is_stdout(&args.out));
     for (nth, (time, path)) in times.iter().zip(&paths).enumerate() {
         let steps = match nth.checked_sub(1).and_then(|before| times.get(before)) {
             None => times::first(args, *time)?,
             Some(before) => times::next(args, *before, *time),
         };
-        let exceeded = studio.go_on(steps)?;
+        let exceeded = studio.go_on(steps, &mut |time| {
+            progress.show(time, None);
+            !is_interrupted()
+        })?;
+        progress.clear();
         if exceeded.is_some() || nth + 1 == times.len() {
             // What is left is drawing, which ends.
             watchdog.take();
@@ -141,9 +149,7 @@ pub(super) fn render(args: &RenderArgs) -> Result<(), CliError> {
         match (exceeded, args.until) {
             (Some(why), Some(_)) => return Err(stopped(why)),
             (Some(why), None) => return studio.draw(path).and(Err(stopped(why))),
-            (None, _) if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) => {
-                return Err(CliError::Interrupted { time });
-            }
+            (None, _) if is_interrupted() => return Err(CliError::Interrupted { time }),
             (None, _) => studio.draw(path)?,
         }
         bar.inc(1);

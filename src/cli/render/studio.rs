@@ -32,11 +32,15 @@ impl<'a> Studio<'a> {
         Self { args, scene, runner, offscreen: None, frame, notes: Vec::new() }
     }
 
-    /// Simulates; says which limit was reached, if one was.
-    pub fn go_on(&mut self, steps: Vec<RunCommand>) -> Result<Option<Exceeded>, CliError> {
+    /// Simulates as long as `go_on`, which hears the model time reached, says so; says which limit was reached, if one was.
+    pub fn go_on(
+        &mut self,
+        steps: Vec<RunCommand>,
+        go_on: &mut dyn FnMut(f64) -> bool,
+    ) -> Result<Option<Exceeded>, CliError> {
         for step in steps {
-            if self.runner.exceeded().is_none() {
-                self.runner.send(step);
+            if !self.runner.send_while(step, go_on) {
+                break;
             }
         }
         self.frame = self.runner.frame();

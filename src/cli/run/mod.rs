@@ -2,7 +2,6 @@
 
 mod drive;
 mod final_scene;
-mod progress;
 mod recorder;
 mod summary;
 

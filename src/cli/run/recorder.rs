@@ -3,9 +3,9 @@
 use std::time::{Duration, Instant};
 
 use super::RunArgs;
-use super::progress::Progress;
 use crate::cli::CliError;
 use crate::cli::output::LineSink;
+use crate::cli::progress::Progress;
 use crate::cli::samples::SampleGrid;
 use crate::cli::table::{Happened, Table, Wanted};
 use crate::record::Cost;
@@ -91,7 +91,7 @@ impl Recorder {
             return Ok(());
         }
         self.last_tick = Instant::now();
-        self.progress.show(sim);
+        self.progress.show(sim.time(), Some(sim.counters().total_events()));
         self.flush()
     }
 

@@ -29,6 +29,11 @@ fn a_closed_pipe_ends_the_run_quietly() {
 
 /// Starts a run that writes `states.jsonl` and presses Ctrl-C once a row is there: how it ended, what it said.
 fn interrupted(bench: &Bench, arguments: &[&str]) -> (Option<i32>, String) {
+    interrupted_after(bench, "states.jsonl", arguments)
+}
+
+/// The same for a program that writes another file.
+fn interrupted_after(bench: &Bench, file: &str, arguments: &[&str]) -> (Option<i32>, String) {
     let child = bench
         .command(arguments)
         .stdout(Stdio::null())
@@ -36,8 +41,8 @@ fn interrupted(bench: &Bench, arguments: &[&str]) -> (Option<i32>, String) {
         .spawn()
         .expect("the program starts");
     let patience = Instant::now();
-    while std::fs::metadata(bench.path("states.jsonl")).map_or(0, |file| file.len()) == 0 {
-        assert!(patience.elapsed() < Duration::from_secs(60), "no row in a minute");
+    while std::fs::metadata(bench.path(file)).map_or(0, |file| file.len()) == 0 {
+        assert!(patience.elapsed() < Duration::from_secs(60), "nothing in {file} in a minute");
         std::thread::sleep(Duration::from_millis(5));
     }
     // The shell's own kill: a small system has no program of that name.
@@ -69,6 +74,19 @@ fn ctrl_c_reaches_a_run_within_a_step_without_events() {
     assert_eq!(code, Some(130));
     // A run that does not look at the request in time is ended without a word.
     assert!(complaint.contains("interrupted at t = "), "{complaint}");
+}
+
+/// Symptom: Ctrl-C was heard at the next picture only, however far that is. Expected: at once.
+#[test]
+fn ctrl_c_reaches_a_film_between_two_pictures() {
+    let orbit = scenes_folder().join("orbit.xml");
+    let orbit = orbit.to_str().expect("UTF-8 paths");
+    let bench = Bench::new();
+    let film = ["render", orbit, "-o", "f-%02d.png", "--until", "1e8", "--fps", "1e-8", "--size", "64x64"];
+    let (code, complaint) = interrupted_after(&bench, "f-00.png", &film);
+    assert_eq!(code, Some(130));
+    assert!(complaint.contains("interrupted at t = "), "{complaint}");
+    assert!(!bench.path("f-01.png").exists());
 }
 
 #[cfg(target_os = "linux")]
