@@ -1,4 +1,4 @@
-//! The progress bar of a long run, on standard error when that is a terminal.
+//! The progress bar of a long simulation, on standard error when that is a terminal.
 
 use std::io::IsTerminal as _;
 use std::time::{Duration, Instant};
@@ -8,8 +8,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 /// Shorter runs show no bar.
 const LONG: Duration = Duration::from_millis(700);
 
-/// Between two pictures of the bar.
-const TICK: Duration = Duration::from_millis(100);
+/// Between two pictures of the bar. Less than between two looks of a run at its outputs, each of which shows it.
+const TICK: Duration = Duration::from_millis(50);
 
 /// The bar counts thousandths of the run.
 const PARTS: f64 = 1000.0;
