@@ -24,11 +24,11 @@ pub(super) fn find(dense: &mut Dense) {
     }
     let is_large = |slot: u32| components[places[slot as usize].0 as usize].slots.len() >= LARGE;
     for index in in_order_of_colours(&dense.pairs, dense.members.len(), is_large) {
-        let Listed { pair, slots: [a, b], .. } = dense.pairs[index as usize];
+        let Listed { pair, slots: [a, b], force } = dense.pairs[index as usize];
         let (number, a) = places[a as usize];
         let b = if b == FIXED { FIXED } else { places[b as usize].1 };
         let component = &mut components[number as usize];
-        component.near.push(Near { pair, listed: index, a, b });
+        component.near.push(Near { pair, listed: index, a, b, force });
         let is_frozen = |body: u32| matches!(dense.role(body), Role::Frozen(_));
         if b == FIXED && pair.dynamic().any(is_frozen) {
             component.with_frozen.push(index);

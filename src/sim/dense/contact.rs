@@ -11,7 +11,7 @@
 
 use glam::DVec3;
 
-use super::stepped::{Contact, Near, Stepped};
+use super::stepped::{Contact, Moving, Near, Step, Stepped, velocity};
 use super::tolerance::{LAZY, PARTING, ROOM, SLOWEST_REBOUND};
 use crate::sim::body::BodyId;
 use crate::sim::geometry::restitution_at;
@@ -19,76 +19,92 @@ use crate::sim::model::Model;
 use crate::sim::shape::direction;
 use crate::sim::state::State;
 
-/// Whether two moving bodies are surely too far apart to count in a step of length h, unless a force is between them.
-pub(super) fn is_far(near: &Near, bodies: &[Stepped], h: f64) -> bool {
-    let one = &bodies[near.a as usize];
-    let Some(other) = bodies.get(near.b as usize) else { return false };
-    let reach = one.radius + other.radius + reach(one, other, one.radius.min(other.radius), h);
-    (other.x - one.x).length_squared() > reach * reach
+/// What the contacts of a component are found from.
+pub(super) struct Finder<'a> {
+    pub model: &'a Model,
+    pub state: &'a State,
+    pub bodies: &'a [Stepped],
+    pub step: Step,
 }
 
-/// Whether two moving bodies surely stay apart in a step of length h with these velocities in its middle:
-/// (d + h Δu)·d > (r_a + r_b) |d|.
-pub(super) fn stays_apart(near: &Near, bodies: &[Stepped], velocity: impl Fn(u32) -> DVec3, h: f64) -> bool {
-    let one = &bodies[near.a as usize];
-    let Some(other) = bodies.get(near.b as usize) else { return false };
-    let apart = other.x - one.x;
-    let touch = one.radius + other.radius;
-    let least = (apart + h * (velocity(near.b) - velocity(near.a))).dot(apart);
-    least > 0.0 && least * least > touch * touch * apart.length_squared()
-}
-
-/// The contact of a listed pair in a step of length h, with the force of the last one, or `None` if neither body can
-/// move.
-pub(super) fn contact(
-    model: &Model,
-    state: &State,
-    near: &Near,
-    force: f64,
-    bodies: &[Stepped],
-    h: f64,
-) -> Option<Contact> {
-    let Near { pair, listed, a, b } = *near;
-    let one = &bodies[a as usize];
-    let other = bodies.get(b as usize);
-    let (normal, gap) = match other {
-        Some(other) => between(one, other),
-        None => against(model, state, one, pair.other(one.body)),
-    };
-    // Steps are as long as the smallest body allows, and so is what they leave.
-    let radius = model.bodies.range_of_radii().0;
-    let other = other.unwrap_or(&Stepped::FIXED);
-    let inverse_mass = one.inverse_mass + other.inverse_mass;
-    if inverse_mass == 0.0 {
-        return None;
+impl Finder<'_> {
+    /// Whether two moving bodies are surely too far apart to count in the step, unless a force is between them.
+    #[inline]
+    pub fn is_far(&self, near: &Near) -> bool {
+        let one = &self.bodies[near.a as usize];
+        let Some(other) = self.bodies.get(near.b as usize) else { return false };
+        let far = one.radius + other.radius + self.reach(one, other);
+        (other.x - one.x).length_squared() > far * far
     }
-    let rate = normal.dot(other.u - one.u);
-    let driven = h * normal.dot(other.a - one.a);
-    let strongest = one.drive.max(other.drive);
-    let landing = landing(gap, rate, h, (ROOM * radius, h * strongest));
-    let rebounds = rate < -SLOWEST_REBOUND * strongest * h && gap + h * (rate + driven) < 0.0;
-    let bound = if rebounds { landing.max(-restitution_at(model, pair, -rate) * rate) } else { landing };
-    let impulse = force * h;
-    let is_lazy = gap > reach(one, other, radius, h) && impulse == 0.0;
-    Some(Contact { listed, a, b, normal, gap, rate, bound, inverse_mass, radius, impulse, is_lazy })
-}
 
-/// The gap from which two bodies need not be looked at before they are seen to meet, m.
-fn reach(one: &Stepped, other: &Stepped, radius: f64, h: f64) -> f64 {
-    h * (one.speed + other.speed) + 2.0 * h * h * one.drive.max(other.drive) + LAZY * radius
+    /// Whether two moving bodies surely stay apart in the step with these velocities in its middle:
+    /// (d + h Δu)·d > (r_a + r_b) |d|.
+    pub fn stays_apart(&self, near: &Near, moving: &[Moving]) -> bool {
+        let one = &self.bodies[near.a as usize];
+        let Some(other) = self.bodies.get(near.b as usize) else { return false };
+        let apart = other.x - one.x;
+        let touch = one.radius + other.radius;
+        let velocity = |body: u32| velocity(&moving[body as usize]);
+        let least = (apart + self.step.h * (velocity(near.b) - velocity(near.a))).dot(apart);
+        least > 0.0 && least * least > touch * touch * apart.length_squared()
+    }
+
+    /// Whether one of a listed pair can move.
+    #[inline]
+    pub fn can_move(&self, near: &Near) -> bool {
+        let inverse_mass = |body: u32| self.bodies.get(body as usize).map_or(0.0, |body| body.inverse_mass);
+        inverse_mass(near.a) + inverse_mass(near.b) > 0.0
+    }
+
+    /// The contact of a listed pair of which one can move, the pair at this place, with the force of the last step.
+    #[inline(always)]
+    pub fn contact(&self, place: u32, near: &Near) -> Contact {
+        let Near { pair, listed, a, b, force } = *near;
+        let one = &self.bodies[a as usize];
+        let other = self.bodies.get(b as usize);
+        let (normal, gap) = match other {
+            Some(other) => between(one, other),
+            None => self.against(one, pair.other(one.body)),
+        };
+        let other = other.unwrap_or(&Stepped::FIXED);
+        let Step { h, radius } = self.step;
+        let rate = normal.dot(other.u - one.u);
+        let driven = h * normal.dot(other.a - one.a);
+        let strongest = one.drive.max(other.drive);
+        let landing = landing(gap, rate, h, (ROOM * radius, h * strongest));
+        let rebounds = rate < -SLOWEST_REBOUND * strongest * h && gap + h * (rate + driven) < 0.0;
+        let bound =
+            if rebounds { landing.max(-restitution_at(self.model, pair, -rate) * rate) } else { landing };
+        let inverse_mass = one.inverse_mass + other.inverse_mass;
+        Contact { near: place, listed, a, b, normal, gap, rate, bound, inverse_mass, impulse: force * h }
+    }
+
+    /// Whether a contact is too far off to count until it is seen to meet.
+    #[inline]
+    pub fn is_lazy(&self, contact: &Contact) -> bool {
+        let one = &self.bodies[contact.a as usize];
+        let other = self.bodies.get(contact.b as usize).unwrap_or(&Stepped::FIXED);
+        contact.impulse == 0.0 && contact.gap > self.reach(one, other)
+    }
+
+    /// The gap from which two bodies need not be looked at before they are seen to meet, m.
+    fn reach(&self, one: &Stepped, other: &Stepped) -> f64 {
+        let Step { h, radius } = self.step;
+        h * (one.speed + other.speed) + 2.0 * h * h * one.drive.max(other.drive) + LAZY * radius
+    }
+
+    /// Normal and gap of a sphere and what does not move.
+    fn against(&self, one: &Stepped, other: BodyId) -> (DVec3, f64) {
+        let place = self.state.path_of(self.model, other).segment.x;
+        let near = self.model.body(other).shape.convex().nearest(place, one.x);
+        (near.towards, near.distance - one.radius)
+    }
 }
 
 /// Normal and gap of two spheres.
 fn between(one: &Stepped, other: &Stepped) -> (DVec3, f64) {
     let (distance, normal) = direction(other.x - one.x);
     (normal, distance - one.radius - other.radius)
-}
-
-/// Normal and gap of a sphere and what does not move.
-fn against(model: &Model, state: &State, one: &Stepped, other: BodyId) -> (DVec3, f64) {
-    let place = state.path_of(model, other).segment.x;
-    let near = model.body(other).shape.convex().nearest(place, one.x);
-    (near.towards, near.distance - one.radius)
 }
 
 /// The bound that keeps bodies apart: they may come as near as they are. Those that overlap part no faster than they

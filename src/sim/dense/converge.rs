@@ -2,8 +2,8 @@
 
 use super::block::solve_together;
 use super::rub::{LawOf, Rubbing};
-use super::stepped::{Contact, Moving, Stepped};
-use super::sweep::{Judgement, Row, System};
+use super::stepped::{Contact, Moving, Step, Stepped};
+use super::sweep::{Judgement, System};
 use super::tolerance::{
     BUDGET, COARSEST, FINEST, FINEST_OF_DEEP, GAIN, GROSS_GAIN, MOST_GIVEN, MOST_IN_VAIN, MOST_SWEEPS,
     SHARE_OF_BUDGET, SHARE_OF_WAY, SWEEPS_AGAINST_GAIN, SWEEPS_TO_BLOCK,
@@ -20,62 +20,85 @@ pub(super) struct Solution {
     pub gains: bool,
 }
 
-/// Solves the contacts of a component in a step of length h. Their impulses are where it begins, and what it finds.
-/// `meet` adds contacts that are seen to be met.
+/// What the contacts of a component are solved for.
+pub(super) struct Problem<'a> {
+    pub bodies: &'a [Stepped],
+    pub step: Step,
+    /// Energy that sweeps of earlier steps have given, J.
+    pub given: f64,
+    pub law: &'a LawOf<'a>,
+}
+
+/// Solves the contacts of a component in a step. Their impulses are where it begins, and what it finds. `meet` adds
+/// contacts that are seen to be met.
 pub(super) fn solve(
+    problem: &Problem<'_>,
     system: &mut System,
     contacts: &mut Vec<Contact>,
-    bodies: &[Stepped],
-    (h, given): (f64, f64),
-    (rubbing, law): (&mut Rubbing, &LawOf<'_>),
+    rubbing: &mut Rubbing,
     mut meet: impl FnMut(&[Moving], &mut Vec<Contact>),
 ) -> Solution {
-    let tolerance = Tolerance::of(bodies, h);
-    let row_of = |contact: &Contact| tolerance.row(contact);
-    let scale_of = |contact: &Contact| tolerance.row(contact).scale;
-    let rub_on = |system: &mut System, rubbing: &mut Rubbing, first: usize, contacts: &[Contact]| {
-        let rows = rubbing.len();
-        rubbing.add(first, &contacts[first..], bodies, (h, &scale_of), law);
-        rubbing.warm_up(rows, bodies, &mut system.moving);
-    };
-    system.begin(bodies, h);
-    system.add(contacts, row_of);
-    rub_on(system, rubbing, 0, contacts);
+    let Problem { bodies, step, given, .. } = *problem;
+    let tolerance = Tolerance::of(bodies, step);
+    system.begin(bodies, step.h);
+    rubbing.begin_anew();
+    add(problem, &tolerance, system, contacts, rubbing, 0);
     let allowed = allowed_gain(bodies);
     let mut effort = Effort { has_blocks: rubbing.is_empty(), given, ..Effort::default() };
     let mut solution = Solution::default();
-    let judged = loop {
-        if effort.sweeps >= MOST_SWEEPS {
-            let judged = system.judge(contacts, h, rubbing);
-            solution.gains = gains_grossly(judged.loss, allowed);
-            break judged;
-        }
-        if !effort.sweep(system, rubbing) {
+    loop {
+        let is_tolerated = effort.sweep(system, rubbing);
+        let is_last = effort.sweeps >= MOST_SWEEPS;
+        if !is_tolerated && !is_last {
+            effort.hasten(system, rubbing);
             continue;
         }
-        let before = contacts.len();
-        meet(&system.moving, contacts);
-        if contacts.len() > before {
-            system.add(&contacts[before..], row_of);
-            rub_on(system, rubbing, before, contacts);
+        let known = contacts.len();
+        if is_tolerated {
+            meet(&system.moving, contacts);
+        }
+        let has_met = contacts.len() > known;
+        if has_met {
+            add(problem, &tolerance, system, contacts, rubbing, known);
             solution.has_converged = false;
-            continue;
+            if !is_last {
+                continue;
+            }
         }
-        let judged = system.judge(contacts, h, rubbing);
+        let judged = system.judge(contacts, step, rubbing);
+        solution.loss = judged.loss;
         solution.gains = gains_grossly(judged.loss, allowed);
-        solution.has_converged = !judged.sinks && !solution.gains;
-        if effort.is_enough(judged, solution.gains, allowed) {
-            break judged;
+        // It has, if once, as long as it does not sink or gain again.
+        solution.has_converged |= is_tolerated && !has_met;
+        solution.has_converged &= !judged.sinks && !solution.gains;
+        if is_last || effort.is_enough(judged, solution.gains, allowed) {
+            break;
         }
-        let creeping = |system: &System| system.creeping(contacts, h, allowed);
+        let creeping = |system: &System| system.creeping(contacts, step, allowed);
         effort.go_on(system, rubbing, creeping);
-    };
+    }
     solution.sweeps = effort.sweeps;
-    solution.loss = judged.loss;
     for (contact, impulse) in contacts.iter_mut().zip(&system.impulses) {
         contact.impulse = *impulse;
     }
     solution
+}
+
+/// Adds the contacts from `first` on to the rows, and to those that rub.
+fn add(
+    problem: &Problem<'_>,
+    tolerance: &Tolerance,
+    system: &mut System,
+    contacts: &[Contact],
+    rubbing: &mut Rubbing,
+    first: usize,
+) {
+    let scale_of = |contact: &Contact| tolerance.scale(contact);
+    let new = &contacts[first..];
+    system.add(new, scale_of);
+    let rows = rubbing.len();
+    rubbing.add(first, new, problem.bodies, (problem.step.h, &scale_of), problem.law);
+    rubbing.warm_up(rows, problem.bodies, &mut system.moving);
 }
 
 /// How much was done in a step so far.
@@ -96,20 +119,21 @@ struct Effort {
 }
 
 impl Effort {
-    /// Sweeps once, and goes on from there unless what changed is tolerated; whether it is.
+    /// Sweeps once; whether what changed is tolerated.
     fn sweep(&mut self, system: &mut System, rubbing: &mut Rubbing) -> bool {
         let worst = system.sweep(self.sweeps % 2 == 1, rubbing);
         self.sweeps += 1;
-        if worst <= 1.0 {
-            return true;
-        }
+        worst <= 1.0
+    }
+
+    /// Goes on where a sweep led, or solves what is slow together.
+    fn hasten(&mut self, system: &mut System, rubbing: &Rubbing) {
         let is_slow = self.has_blocks && self.sweeps.is_multiple_of(SWEEPS_TO_BLOCK);
         if is_slow && solve_together(system, system.slow(), self.blocks) {
             self.blocks += 1;
         } else {
             system.go_on(rubbing);
         }
-        false
     }
 
     /// Whether nothing is left to do where all changes are small enough, or it is in vain.
@@ -156,32 +180,26 @@ fn allowed_gain(bodies: &[Stepped]) -> f64 {
 struct Tolerance {
     /// Of the way that bodies pass in a step on average, m.
     way: f64,
-    /// Length of the step, s.
-    h: f64,
+    step: Step,
 }
 
 impl Tolerance {
-    fn of(bodies: &[Stepped], h: f64) -> Self {
+    fn of(bodies: &[Stepped], step: Step) -> Self {
         let mean: f64 = bodies.iter().map(|body| body.u.length_squared()).sum::<f64>() / bodies.len() as f64;
-        Self { way: SHARE_OF_WAY * h * mean.sqrt(), h }
+        Self { way: SHARE_OF_WAY * step.h * mean.sqrt(), step }
     }
 
     /// min(clamp(0.1 h u, 2e-6 r, 1e-4 r), max((6e-4 r + g)/4, 2e-7 r)), m.
     fn of_contact(&self, contact: &Contact) -> f64 {
-        let (finest, coarsest) = (FINEST * contact.radius, COARSEST * contact.radius);
-        let left = SHARE_OF_BUDGET * (BUDGET * contact.radius + contact.gap);
+        let radius = self.step.radius;
+        let (finest, coarsest) = (FINEST * radius, COARSEST * radius);
+        let left = SHARE_OF_BUDGET * (BUDGET * radius + contact.gap);
         self.way.clamp(finest, coarsest).min(left.max(FINEST_OF_DEEP * finest))
     }
 
-    fn row(&self, contact: &Contact) -> Row {
-        let [x, y, z] = contact.normal.to_array();
-        Row {
-            normal: [x, y, z, 0.0],
-            bound: contact.bound,
-            mass: 1.0 / contact.inverse_mass,
-            scale: contact.inverse_mass * self.h / self.of_contact(contact),
-            ends: [contact.a, contact.b],
-        }
+    /// The change of an impulse that makes one, 1/(N·s).
+    fn scale(&self, contact: &Contact) -> f64 {
+        contact.inverse_mass * self.step.h / self.of_contact(contact)
     }
 }
 
@@ -205,6 +223,7 @@ mod tests {
     fn lies(bodies: &[Stepped], a: u32, b: u32, gap: f64) -> Contact {
         let inverse_mass = |body: u32| bodies.get(body as usize).map_or(0.0, |body| body.inverse_mass);
         Contact {
+            near: 0,
             listed: 0,
             a,
             b,
@@ -213,9 +232,7 @@ mod tests {
             rate: 0.0,
             bound: if gap < 0.0 { 0.0 } else { -gap / H },
             inverse_mass: inverse_mass(a) + inverse_mass(b),
-            radius: RADIUS,
             impulse: 0.0,
-            is_lazy: false,
         }
     }
 
@@ -235,14 +252,9 @@ mod tests {
     }
 
     fn solved(bodies: &[Stepped], contacts: &mut Vec<Contact>) -> Solution {
-        solve(
-            &mut System::default(),
-            contacts,
-            bodies,
-            (H, 0.0),
-            (&mut Rubbing::default(), &|_| None),
-            |_, _| {},
-        )
+        let step = Step { h: H, radius: RADIUS };
+        let problem = Problem { bodies, step, given: 0.0, law: &|_| None };
+        solve(&problem, &mut System::default(), contacts, &mut Rubbing::default(), |_, _| {})
     }
 
     #[test]

@@ -94,6 +94,9 @@ fn meet_before(model: &Model, state: &State, (body, member): (u32, u32), time: f
 pub(in crate::sim) fn wake_all(model: &Model, state: &mut State, time: f64) -> Result<(), Fault> {
     with_dense(model, state, time, |state, dense| {
         forget_removed(model, dense);
+        // The new list finds anew who is to join.
+        dense.waiting.clear();
+        dense.is_list_stale = true;
         let frozen: Vec<u32> = (0..)
             .zip(&dense.roles)
             .filter(|(_, role)| matches!(role, Role::Frozen(_)))
@@ -110,7 +113,6 @@ pub(in crate::sim) fn wake_all(model: &Model, state: &mut State, time: f64) -> R
 fn forget_removed(model: &Model, dense: &mut Dense) {
     let is_gone = |body: u32| !model.dynamic(body).present;
     dense.members.retain(|member| !is_gone(member.body));
-    dense.waiting.retain(|body| !is_gone(*body));
     for (_, role) in (0..).zip(&mut dense.roles).filter(|(body, _)| is_gone(*body)) {
         dense.frozen -= usize::from(matches!(role, Role::Frozen(_)));
         *role = Role::Outside;
@@ -288,7 +290,7 @@ fn propose(model: &Model, state: &mut State, dense: &Dense, component: &mut Comp
         work.bodies.iter_mut().for_each(|body| body.take_step(h));
         let spin = model.plan.spin.then_some(|body| state.spin(body, time));
         work.rubbing.begin(&work.bodies, spin);
-        find_contacts(model, state, dense, component, h);
+        find_contacts(model, state, component, h);
         solve_contacts(model, state, dense, component, h, Landing::OrRebound);
         let work = &mut component.work;
         state.counters.sweeps += work.solution.sweeps as u64;
@@ -350,10 +352,12 @@ fn carry_out(
     model: &Model,
     state: &mut State,
     dense: &mut Dense,
-    component: &Component,
+    component: &mut Component,
     time: f64,
 ) -> Result<(), Fault> {
-    let Component { slots, work, .. } = component;
+    let h = component.work.end - time;
+    note_forces(dense, component, h);
+    let Component { slots, work, .. } = &*component;
     state.counters.steps += 1;
     state.counters.contacts += work.contacts.len() as u64;
     state.account.impact_losses.add(work.solution.loss);
@@ -362,10 +366,7 @@ fn carry_out(
         note_length(member, work);
         member.given = (work.given - work.solution.loss).max(0.0);
         member.is_stepped = true;
-        member.idle = member.idle.saturating_add(1);
     }
-    let h = work.end - time;
-    note_forces(dense, component, h);
     book_outside(state, work);
     if !work.rubbing.spins.is_empty() {
         note_friction(model, dense, component, h);
@@ -397,15 +398,21 @@ fn note_length(member: &mut Member, work: &Work) {
 }
 
 /// Keeps the forces for the next step, and who is pushed by another body.
-fn note_forces(dense: &mut Dense, component: &Component, h: f64) {
+fn note_forces(dense: &mut Dense, component: &mut Component, h: f64) {
     let Component { slots, near, work, .. } = component;
-    for near in near {
+    for slot in slots.iter() {
+        let member = &mut dense.members[*slot as usize];
+        member.idle = member.idle.saturating_add(1);
+    }
+    for near in near.iter_mut().filter(|near| near.force != 0.0) {
+        near.force = 0.0;
         dense.pairs[near.listed as usize].force = 0.0;
     }
     for contact in work.contacts.iter().filter(|contact| contact.impulse > 0.0) {
-        let listed = &mut dense.pairs[contact.listed as usize];
-        listed.force = contact.impulse / h;
-        if listed.pair.second().is_some() {
+        let force = contact.impulse / h;
+        near[contact.near as usize].force = force;
+        dense.pairs[contact.listed as usize].force = force;
+        if near[contact.near as usize].pair.second().is_some() {
             for slot in [contact.a, contact.b].into_iter().filter_map(|body| slots.get(body as usize)) {
                 dense.members[*slot as usize].idle = 0;
             }

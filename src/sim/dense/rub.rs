@@ -87,6 +87,12 @@ impl Rubbing {
         self.before.clone_from(&self.spins);
     }
 
+    /// The same bodies as before the step, without rows.
+    pub fn begin_anew(&mut self) {
+        self.rows.clear();
+        self.spins.clone_from(&self.before);
+    }
+
     /// Adds contacts, of which the first is the one of this number.
     pub fn add(
         &mut self,

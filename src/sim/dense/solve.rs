@@ -1,10 +1,10 @@
 //! The contacts of a component in one step: found, and solved.
 
-use super::contact::{contact, is_far, stays_apart};
-use super::converge::solve;
+use super::contact::Finder;
+use super::converge::{Problem, solve};
 use super::data::{Component, Dense, Work};
 use super::start::law_of;
-use super::stepped::{Contact, Moving, velocity};
+use super::stepped::{Contact, Moving, Step};
 use super::sweep::closing;
 use crate::sim::model::Model;
 use crate::sim::state::State;
@@ -20,20 +20,24 @@ pub(super) enum Landing {
 }
 
 /// Finds what touches or may come to in a step of length h, and what is too far off for that.
-pub(super) fn find_contacts(model: &Model, state: &State, dense: &Dense, component: &mut Component, h: f64) {
+pub(super) fn find_contacts(model: &Model, state: &State, component: &mut Component, h: f64) {
     let Component { near, work: Work { bodies, contacts, waiting, .. }, .. } = component;
+    let finder = Finder { model, state, bodies, step: step_of(model, h) };
     contacts.clear();
     waiting.clear();
     for (place, near) in (0..).zip(near.iter()) {
-        let force = dense.pairs[near.listed as usize].force;
-        if force == 0.0 && is_far(near, bodies, h) {
+        if near.force == 0.0 && finder.is_far(near) {
             waiting.push(place);
             continue;
         }
-        match contact(model, state, near, force, bodies, h) {
-            Some(contact) if contact.is_lazy => waiting.push(place),
-            Some(contact) => contacts.push(contact),
-            None => {}
+        if !finder.can_move(near) {
+            continue;
+        }
+        let contact = finder.contact(place, near);
+        if finder.is_lazy(&contact) {
+            waiting.push(place);
+        } else {
+            contacts.push(contact);
         }
     }
 }
@@ -54,18 +58,24 @@ pub(super) fn solve_contacts(
         Landing::Only => Contact { bound: contact.bound.min(0.0), ..contact },
     };
     contacts.iter_mut().for_each(|contact| *contact = land(*contact));
+    let finder = Finder { model, state, bodies, step: step_of(model, h) };
     let mut meet = |moving: &[Moving], contacts: &mut Vec<Contact>| {
         waiting.retain(|place| {
             let near = &near[*place as usize];
-            if stays_apart(near, bodies, |body| velocity(&moving[body as usize]), h) {
+            if finder.stays_apart(near, moving) {
                 return true;
             }
-            let contact = contact(model, state, near, 0.0, bodies, h);
-            let met = contact.filter(|contact| contact.gap + h * closing(contact, moving) < 0.0);
-            contacts.extend(met.map(land));
-            met.is_none()
+            let contact = finder.contact(*place, near);
+            let is_met = contact.gap + h * closing(&contact, moving) < 0.0;
+            contacts.extend(is_met.then(|| land(contact)));
+            !is_met
         });
     };
     let law = |contact: &Contact| law_of(model, dense, contact);
-    *solution = solve(system, contacts, bodies, (h, *given), (rubbing, &law), &mut meet);
+    let problem = Problem { bodies, step: finder.step, given: *given, law: &law };
+    *solution = solve(&problem, system, contacts, rubbing, &mut meet);
+}
+
+fn step_of(model: &Model, h: f64) -> Step {
+    Step { h, radius: model.bodies.range_of_radii().0 }
 }

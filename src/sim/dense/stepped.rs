@@ -7,32 +7,42 @@ use crate::sim::pair::Pair;
 /// The place of a body that does not move.
 pub(in crate::sim) const FIXED: u32 = u32::MAX;
 
-/// One body of a component in one step.
+/// A step of a component.
 #[derive(Clone, Copy, Debug)]
+pub(super) struct Step {
+    /// Its length, s.
+    pub h: f64,
+    /// The smallest radius of all bodies, m: steps are as long as that allows, and so is what they leave.
+    pub radius: f64,
+}
+
+/// One body of a component in one step. What is read of each pair comes first, and each line of memory is read whole.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
 pub(super) struct Stepped {
-    pub body: u32,
     /// m.
     pub x: DVec3,
-    /// Velocity at the end of the step before, m/s, with the second half of its kick.
-    pub v: DVec3,
-    /// What that kick is beyond what the segment says, m/s.
-    pub kick: DVec3,
-    /// Velocity in the middle of the step before, m/s.
-    pub u: DVec3,
-    /// Acceleration of the applied forces, m/s².
-    pub a: DVec3,
-    /// Lengths of those two.
+    /// m.
+    pub radius: f64,
+    /// Length of `u`, m/s, and of `a`, m/s².
     pub speed: f64,
     pub drive: f64,
     /// 1/kg; 0 for one that is held.
     pub inverse_mass: f64,
-    /// m.
-    pub radius: f64,
+    pub body: u32,
+    pub halvings_by_pull: u8,
+    /// Velocity in the middle of the step before, m/s.
+    pub u: DVec3,
+    /// Acceleration of the applied forces, m/s².
+    pub a: DVec3,
     /// How fast the pull of attractors changes, 1/s².
     pub stiffness: f64,
-    /// The longest step for that pull, s, and how many halvings make it.
+    /// The longest step for that pull, s; `halvings_by_pull` make it.
     pub step: f64,
-    pub halvings_by_pull: u8,
+    /// Velocity at the end of the step before, m/s, with the second half of its kick.
+    pub v: DVec3,
+    /// What that kick is beyond what the segment says, m/s.
+    pub kick: DVec3,
 }
 
 impl Stepped {
@@ -69,12 +79,15 @@ pub(super) struct Near {
     /// Places in the component; `b` is [`FIXED`] for one that does not move.
     pub a: u32,
     pub b: u32,
+    /// Force between them in the last step, N: that of the list.
+    pub force: f64,
 }
 
 /// What touches or may come to in a step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Contact {
-    /// Place in the list of pairs.
+    /// Place among the pairs of its component, and in the list of pairs.
+    pub near: u32,
     pub listed: u32,
     /// Places in the component; `b` is [`FIXED`] for one that does not move.
     pub a: u32,
@@ -89,12 +102,8 @@ pub(super) struct Contact {
     pub bound: f64,
     /// 1/m_a + 1/m_b.
     pub inverse_mass: f64,
-    /// The smallest of all bodies, m.
-    pub radius: f64,
     /// N·s.
     pub impulse: f64,
-    /// Whether it is too far off to count until it is seen to meet.
-    pub is_lazy: bool,
 }
 
 /// Velocity in the middle of a step, m/s, and inverse mass, 1/kg.

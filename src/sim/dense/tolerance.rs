@@ -76,6 +76,10 @@ pub(super) const SHARE_OF_BUDGET: f64 = 0.25;
 /// what the sweeps leave adds up.
 pub(super) const FINEST_OF_DEEP: f64 = 0.1;
 
+/// The conjugate gradient goes on by this part of what Fletcher and Reeves' ratio says. At 1 it overshoots where contacts
+/// open and close, and takes a fifth more sweeps in a pile of 1000; at 0.8 it gains less.
+pub(super) const SHARE_OF_DIRECTION: f64 = 0.9375;
+
 /// Sweeps before a step is halved.
 pub(super) const MOST_SWEEPS: usize = 400;
 
