@@ -56,7 +56,7 @@ pub(super) fn fault(model: &Model, body: u32, time: f64, error: SegmentError) ->
         }
         SegmentError::Stalled => {
             format!(
-                "body {name}: the integrator's step has shrunk to nothing; a force is singular or not smooth there"
+                "body {name}: the integrator's step has shrunk to nothing; a force is singular or not smooth there: keep the body away from it, or run with --method fixed"
             )
         }
     };

@@ -16,8 +16,8 @@ use super::rolling::{book_turn, report};
 use super::segment::{Segment, Series};
 use super::state::State;
 use super::tolerance::{
-    AS_IT_BEGAN, AT_ONCE, JUST_BEGUN, LAST_OF_SLIP, LEAST_OF_STEP, MOST_GRIPPING, NO_SLIP, PRESSURE_ROUNDING,
-    SHARE_OF_SLIP, STICKS_ON, STIFF_STEP,
+    AS_IT_BEGAN, AT_ONCE, JUST_BEGUN, LAST_OF_SLIP, LAST_OF_WAY, LEAST_OF_STEP, MOST_GRIPPING, NO_SLIP,
+    PRESSURE_ROUNDING, SHARE_OF_SLIP, STICKS_ON, STIFF_STEP,
 };
 use super::turn::{Due, Hold, Turn};
 
@@ -144,7 +144,7 @@ impl Grip<'_> {
             let all = slips.iter().filter(|(_, end)| *end <= soonest * (1.0 + AT_ONCE)).map(|(k, _)| *k);
             return Ok(Some((self.straight(time, soonest, motions, driven), all.collect())));
         }
-        let mut steps = self.step(state, time, (motions, driven), soonest)?;
+        let Some(mut steps) = self.step(state, time, (motions, driven), soonest)? else { return Ok(None) };
         if self.is_stiff(&steps[0], motions, driven) {
             return Ok(None);
         }
@@ -160,14 +160,15 @@ impl Grip<'_> {
         Ok(Some((steps, Vec::new())))
     }
 
-    /// One step of the integrator, with the work of friction in joules as the last.
+    /// One step of the integrator, with the work of friction in joules as the last; `None` where it has no length: slips
+    /// that turn ever faster as they end are followed no further.
     fn step(
         &self,
         state: &mut State,
         time: f64,
         (motions, driven): (&[DVec3], &Driven),
         soonest: f64,
-    ) -> Result<Vec<Step>, (u32, SegmentError)> {
+    ) -> Result<Option<Vec<Step>>, (u32, SegmentError)> {
         let count = self.island.ids.len();
         let unit = self.unit_of_work(motions, driven);
         let mut x: Vec<DVec3> = self.island.x.clone();
@@ -197,14 +198,17 @@ impl Grip<'_> {
             start.noise = 1.0 / AS_IT_BEGAN;
             steps = coupled_step(&start, evaluations, field);
         }
-        let mut steps = steps.map_err(|error| (self.island.ids[0], error))?;
+        let mut steps = match steps {
+            Err(SegmentError::Stalled) => return Ok(None),
+            steps => steps.map_err(|error| (self.island.ids[0], error))?,
+        };
         // From the unit of the accelerations.
         let (work, column) = &mut steps[2 * count];
         work.a *= unit;
         if let Some(column) = column {
             column.series.b.iter_mut().for_each(|b| *b *= unit);
         }
-        Ok(steps)
+        Ok(Some(steps))
     }
 
     /// How much larger than their rounding slips make that of their directions.
@@ -242,12 +246,13 @@ impl Grip<'_> {
         driven.touches.iter().enumerate().filter_map(end).collect()
     }
 
-    /// Whether so little is left of a slip that the rest is straight.
+    /// Whether so little is left of a slip that the rest is straight, and so little time that the others are too.
     fn is_last(&self, k: usize, left: f64, motions: &[DVec3], driven: &Driven) -> bool {
         let speed = motions.iter().map(|motion| motion.length()).fold(0.0, f64::max);
         let touch = &driven.touches[k];
         let rate = (touch.slip(&driven.motions) + touch.drift(motions)).length();
-        rate * left <= LAST_OF_SLIP * speed
+        let radius = self.radii.iter().copied().fold(f64::INFINITY, f64::min);
+        rate * left <= LAST_OF_SLIP * speed && driven.size * left * left <= LAST_OF_WAY * radius
     }
 
     /// All at their present accelerations for a short time.

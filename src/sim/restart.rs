@@ -105,7 +105,7 @@ fn begin_islands(model: &Model, state: &mut State, time: f64, starts: &[Start]) 
                 to_step.push(island.ids);
             }
             Regime::Held if rubs(model, &island) => match begin_rubbing(model, state, &mut island, time)? {
-                Gripped::Goes => {}
+                Gripped::Goes => note_integrated(model, state, &island.ids, time),
                 Gripped::Parted => {
                     // What parts may be put together again at once, and so for ever.
                     island.ids.iter().for_each(|body| note_impact(model, state, *body, time, true));
@@ -119,9 +119,7 @@ fn begin_islands(model: &Model, state: &mut State, time: f64, starts: &[Start]) 
             Regime::Held => {
                 begin_island(model, state, &mut island, time)
                     .map_err(|(body, error)| fault(model, body, time, error))?;
-                if state.segments[island.ids[0] as usize].step > 0.0 {
-                    note_work(model, state, &island.ids, time);
-                }
+                note_integrated(model, state, &island.ids, time);
             }
         }
     }
@@ -132,6 +130,13 @@ fn begin_islands(model: &Model, state: &mut State, time: f64, starts: &[Start]) 
         }
     }
     Ok(bodies)
+}
+
+/// Notes what it costs to go on with an island, if its motion is integrated.
+fn note_integrated(model: &Model, state: &mut State, ids: &[u32], time: f64) {
+    if state.segments[ids[0] as usize].step > 0.0 {
+        note_work(model, state, ids, time);
+    }
 }
 
 /// Lets an island go on that rubs.

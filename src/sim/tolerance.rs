@@ -158,6 +158,11 @@ pub(super) const ONE_LINE: f64 = 1e-13;
 /// digits, smaller takes more steps.
 pub(super) const LAST_OF_SLIP: f64 = 1e-8;
 
+/// And the way that bodies fall meanwhile is this part of their radii at most: turning with their contacts, accelerations
+/// change velocities by as much of them. A slip of a few roundings that hardly changes has a long time left. Larger, and
+/// contacts part; smaller takes more steps.
+pub(super) const LAST_OF_WAY: f64 = 1e-15;
+
 /// Slips that end within this part of the time that is left to the first of them end with it: what is left of them then is
 /// this part of [`LAST_OF_SLIP`], a rounding of the speeds. Smaller, slips that end together do so one after the other;
 /// larger, those end that have some way to go.

@@ -175,6 +175,8 @@ mod sim_spin;
 mod sim_roots;
 // Stiff friction, from seeds: no fault, no crowd of events, nothing gained.
 mod sim_stiff_slips;
+// Rough balls in rooms, from seeds: no fault, nothing gained, the books close.
+mod sim_rubbing_rooms;
 // Scenes scaled by powers of two in length, time and mass give the scaled bits.
 mod sim_scale;
 // Seams and edges under bodies whose way is integrated: no ghost impacts, no kink inside a step.
