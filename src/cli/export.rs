@@ -2,7 +2,6 @@
 
 use std::io::IsTerminal as _;
 use std::path::PathBuf;
-use std::sync::atomic::Ordering;
 
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser};
@@ -124,7 +123,7 @@ fn exported_recording(args: &ExportArgs, format: &Format) -> Result<Exported, Cl
     let of = |error: RerunError| replay::stopped(&name, error);
     let file = RecordingFile::read(&replay::read(&args.scene)?).map_err(|error| of(error.into()))?;
     let document = file.document().map_err(|error| of(error.into()))?;
-    let go_on = &mut |_: f64| !interrupt.load(Ordering::Relaxed);
+    let go_on = &mut |_: f64| !interrupt.is_raised();
     let mut rerun = Rerun::of(file, args.limits.limits(), go_on).map_err(of)?;
     let runner = rerun.runner();
     runner.send(RunCommand::ShareMotion(true));
@@ -179,7 +178,7 @@ fn exported(
     let mut over = None;
     let mut go_on = |_part: f64, events: u64| {
         over = watch.exceeded(events);
-        over.is_none() && !interrupt.load(Ordering::Relaxed)
+        over.is_none() && !interrupt.is_raised()
     };
     let exported = format.export_when(document, when, &mut go_on);
     exported.map_err(|error| match (error, over) {

@@ -2,7 +2,6 @@
 
 use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -124,21 +123,22 @@ pub(super) fn study(args: &StudyArgs) -> Result<(), CliError> {
         bar.set_message(progress.what.clone());
     };
     let interrupt = interrupt::on_interrupt();
-    let mut control = Control::new(interrupt, &mut show).until(args.limits.wall());
+    let mut control = Control::new(interrupt.flag(), &mut show).until(args.limits.wall());
     let outcome = study::run(scene, &title_of(&args.scene), &settings, &mut control);
     drop(watchdog);
+    let is_interrupted = interrupt.is_raised();
     bar.finish_and_clear();
     let report = outcome.map_err(|error| match error {
         StudyError::Settings(error) => CliError::Usage(format!("--{error}")),
         StudyError::Scene(error) => CliError::Scene(error.to_string()),
     })?;
     write(args, &report)?;
-    early_end(args, &report, interrupt)
+    early_end(args, &report, is_interrupted)
 }
 
 /// How a study that was not carried out in full ends.
-fn early_end(args: &StudyArgs, report: &Report, interrupt: &AtomicBool) -> Result<(), CliError> {
-    if report.cancelled && interrupt.load(Ordering::Relaxed) {
+fn early_end(args: &StudyArgs, report: &Report, is_interrupted: bool) -> Result<(), CliError> {
+    if report.cancelled && is_interrupted {
         return Err(CliError::Cancelled);
     }
     if let (true, Some(wall)) = (report.cancelled, args.limits.max_wall) {

@@ -1,7 +1,5 @@
 //! What both troubles and repairs go by: what may move, what lies outside, which tiles fit; and the ways to repair.
 
-use glam::DVec3;
-
 use super::gap::radius;
 use crate::scene::{Body, NodeKey, Scene};
 
@@ -62,8 +60,7 @@ pub(super) fn may_part(a: &Body, b: &Body) -> bool {
 
 /// Whether a moving body's middle lies outside the map.
 pub(super) fn is_outside(scene: &Scene, body: &Body) -> bool {
-    let at = body.position;
-    body.is_dynamic() && (at.cmplt(DVec3::ZERO).any() || at.cmpgt(scene.map.size).any())
+    body.is_dynamic() && !scene.map.contains(body.position)
 }
 
 /// The median of the radii of moving balls.

@@ -39,6 +39,13 @@ pub struct Map {
     pub tiles: [u32; 3],
 }
 
+impl Map {
+    /// Whether a point, in m, lies in it or on its border.
+    pub fn contains(&self, point: DVec3) -> bool {
+        !(point.cmplt(DVec3::ZERO).any() || point.cmpgt(self.size).any())
+    }
+}
+
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Force {
     pub key: NodeKey,

@@ -7,17 +7,17 @@ mod times;
 
 use std::io::IsTerminal as _;
 use std::path::PathBuf;
-use std::sync::atomic::Ordering;
 
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use self::names::Names;
 use self::studio::Studio;
+use super::interrupt::{self, Interrupt};
 use super::limits::LimitArgs;
 use super::output::{self, is_stdout};
 use super::progress::Progress;
-use super::{CliError, input, interrupt, method, number};
+use super::{CliError, input, method, number};
 use crate::render::check_png_name;
 use crate::sim::Method;
 use crate::view::{OVERLAYS, OverlaySet, Theme};
@@ -127,7 +127,7 @@ pub(super) fn render(args: &RenderArgs) -> Result<(), CliError> {
     };
     let mut studio = Studio::new(args, scene);
     let (bar, stop) = (bar(args, times.len()), args.until.map(|_| interrupt::on_interrupt()));
-    let is_interrupted = || stop.is_some_and(|stop| stop.load(Ordering::Relaxed));
+    let is_interrupted = || stop.is_some_and(Interrupt::is_raised);
     // What goes before the first picture.
     let mut progress = Progress::new(times.first().copied().unwrap_or_default(), is_stdout(&args.out));
     for (nth, (time, path)) in times.iter().zip(&paths).enumerate() {

@@ -1,9 +1,8 @@
 //! The loop of a run: Δt after Δt, event after event, looking often for a reason to stop.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-
 use super::recorder::Recorder;
 use crate::cli::CliError;
+use crate::cli::interrupt::Interrupt;
 use crate::cli::samples::SampleGrid;
 use crate::record::{Exceeded, Watch};
 use crate::sim::{Fault, Progress, Simulation};
@@ -25,12 +24,26 @@ pub enum Ending {
 
 /// What may end a run before its end.
 pub struct Stops<'a> {
-    pub interrupt: &'a AtomicBool,
+    pub interrupt: &'a Interrupt,
     pub watch: Watch,
 }
 
-/// Runs `sim` over `grid`; an error means that an output cannot be written.
+/// Runs `sim` over `grid` and takes down the state in which it ends, unless that is the state of a fault; an error means
+/// that an output cannot be written.
 pub fn drive(
+    sim: &mut Simulation,
+    grid: &SampleGrid,
+    recorder: &mut Recorder,
+    stops: &Stops,
+) -> Result<Ending, CliError> {
+    let ending = drive_on(sim, grid, recorder, stops)?;
+    if !matches!(ending, Ending::Faulted(_)) {
+        recorder.last(sim)?;
+    }
+    Ok(ending)
+}
+
+fn drive_on(
     sim: &mut Simulation,
     grid: &SampleGrid,
     recorder: &mut Recorder,
@@ -51,9 +64,6 @@ pub fn drive(
                 Err(fault) => return Ok(Ending::Faulted(fault)),
             }
             if let Some(ending) = reason_to_stop(sim, recorder, stops, events)? {
-                if matches!(ending, Ending::Exceeded(_)) {
-                    recorder.last(sim)?;
-                }
                 return Ok(ending);
             }
         }
@@ -75,7 +85,7 @@ fn reason_to_stop(
     events: u64,
 ) -> Result<Option<Ending>, CliError> {
     recorder.tick(sim)?;
-    Ok(if stops.interrupt.load(Ordering::Relaxed) {
+    Ok(if stops.interrupt.is_raised() {
         Some(Ending::Interrupted)
     } else if recorder.nobody_listens() {
         Some(Ending::NobodyListens)

@@ -103,9 +103,8 @@ pub(super) fn run(args: &RunArgs) -> Result<(), CliError> {
         return Err(CliError::Scene(format!("{name} cannot be simulated: {errors} error(s)")));
     };
 
-    let scene = examined.document.scene();
-    let wanted = scene.map(|scene| args.rows.wanted(scene)).transpose()?;
-    let wanted = wanted.ok_or_else(|| CliError::Scene(format!("{name} has no scene")))?;
+    let scene = examined.document.scene().ok_or_else(|| CliError::Scene(format!("{name} has no scene")))?;
+    let wanted = args.rows.wanted(scene)?;
     let interrupt = interrupt::on_interrupt();
     final_scene.as_ref().map_or(Ok(()), FinalScene::check)?;
     let mut recorder = Recorder::create(args, &grid, wanted)?;
@@ -121,7 +120,7 @@ pub(super) fn run(args: &RunArgs) -> Result<(), CliError> {
         super::say(&line);
         warnings.push(line);
     }
-    let summary = Summary::new(&sim, &grid, &ending, recorder.max_overlap(), wall_s, &warnings);
+    let summary = Summary::new(&sim, &grid, &ending, (recorder.max_overlap(), &scene.map), wall_s, &warnings);
     if args.json {
         summary.print_json()?;
     } else if !args.writes_to_stdout() {
@@ -190,18 +189,22 @@ fn long_help() -> String {
 const ROWS: &str = "\
 States, one row at t = 0, after every N-th Δt and at the end:
   {\"t\":0.5,\"bodies\":[{\"id\":\"7\",\"x\":[..],\"v\":[..],\"state\":\"flight\"}]}
-  t in s, x in m, v in m/s; state is flight, rest, slide or stepped
+  t in s, x in m, v in m/s; state is flight, rest, slide, roll or stepped
   where bodies rub: \"q\":[x,y,z,w], the unit quaternion that turns the body's axes to where they are, and
   \"w\":[..], the angular velocity in rad/s, about the axes of the map
 
 Events, one row per contact:
   {\"seq\":1,\"t\":0.1,\"kind\":\"impact\",\"a\":\"7\",\"b\":\"9\",\"point\":[..],\"normal\":[..],
-   \"impulse\":1.0,\"vn_before\":-2.0,\"vn_after\":2.0,\"group\":1,\"dt_index\":12}
+   \"impulse\":1.0,\"vn_before\":-2.0,\"vn_after\":2.0,\"group\":1,\"gap\":0.0,\"rounds\":0,\"dt_index\":12}
   a has the smaller UserID; b is null for an event of one body; where they have names, \"a_name\" and \"b_name\" follow
   point is on the surfaces, in m; normal is the unit vector from a to b
   impulse is in N·s; vn is the speed of b against a along normal, in m/s
   group numbers the impacts and collapses: the contacts of bodies that touch are resolved
-  together and share it, one row each; it is 0 for other kinds; dt_index is the Δt, from 1
+  together and share it, one row each; it is 0 for other kinds
+  gap is the distance of the surfaces where the search for the time of an impact ended, in m
+  rounds says in how many rounds the contacts of its group were resolved, 0 for two bodies alone
+  dt_index is the Δt, from 1
+  with --costs, searches and dropped say what the core did since the event before
   dense and group_rest are about the bodies of one group, of which a has the smallest UserID;
   they say how many these are, \"bodies\":30, and share the group's number
 

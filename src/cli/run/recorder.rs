@@ -28,6 +28,8 @@ pub struct Recorder {
     states_every: u64,
     overlap_every: u64,
     last_step: u64,
+    /// The time, s, and the events until then of the state taken down last.
+    taken_down: Option<(f64, u64)>,
     /// At the event before.
     counters: Counters,
     /// Whether the run has a purpose besides the rows.
@@ -52,6 +54,7 @@ impl Recorder {
             states_every: args.every,
             overlap_every: grid.steps.div_ceil(OVERLAP_LOOKS),
             last_step: grid.steps,
+            taken_down: None,
             counters: Counters::default(),
         })
     }
@@ -60,19 +63,27 @@ impl Recorder {
     pub fn sample(&mut self, sim: &Simulation, step: u64) -> Result<(), CliError> {
         let is_last = step == self.last_step;
         if is_last || step.is_multiple_of(self.overlap_every) {
-            self.max_overlap = self.max_overlap.max(sim.worst_overlap());
+            self.look_for_overlap(sim);
         }
-        match &mut self.states {
-            Some(table) if is_last || step.is_multiple_of(self.states_every) => {
-                table.state(sim, &self.wanted)
-            }
-            _ => Ok(()),
-        }
+        if is_last || step.is_multiple_of(self.states_every) { self.take_down(sim) } else { Ok(()) }
     }
 
-    /// Takes down the state of a run that ends here, inside a Δt.
+    /// Takes down the state of a run that ends here, wherever that is, unless that is done.
     pub fn last(&mut self, sim: &Simulation) -> Result<(), CliError> {
-        self.sample(sim, self.last_step)
+        if self.taken_down == Some(moment(sim)) {
+            return Ok(());
+        }
+        self.look_for_overlap(sim);
+        self.take_down(sim)
+    }
+
+    fn look_for_overlap(&mut self, sim: &Simulation) {
+        self.max_overlap = self.max_overlap.max(sim.worst_overlap());
+    }
+
+    fn take_down(&mut self, sim: &Simulation) -> Result<(), CliError> {
+        self.taken_down = Some(moment(sim));
+        self.states.as_mut().map_or(Ok(()), |table| table.state(sim, &self.wanted))
     }
 
     /// Takes down an event of the `dt_index`-th Δt.
@@ -119,4 +130,8 @@ impl Recorder {
     fn sinks(&self) -> impl Iterator<Item = &LineSink> {
         self.states.iter().chain(&self.events).map(|table| &table.sink)
     }
+}
+
+fn moment(sim: &Simulation) -> (f64, u64) {
+    (sim.time(), sim.counters().total_events())
 }

@@ -7,6 +7,7 @@ use serde::{Serialize, Serializer};
 use super::drive::Ending;
 use crate::cli::samples::SampleGrid;
 use crate::cli::{CliError, output};
+use crate::scene::Map;
 use crate::sim::{Energy, EventKind, Plan, Simulation};
 
 /// The object that `--json` prints. What cannot be computed is `null`.
@@ -31,6 +32,8 @@ pub struct Summary<'a> {
     angular_momentum: Option<MomentumReport>,
     /// m, the deepest at any sample that was looked at.
     max_overlap: f64,
+    /// Moving bodies whose centres are outside the map at the end.
+    outside_map: usize,
     /// FNV-1a of the last state's bits, in hexadecimal.
     hash: String,
     work: WorkReport,
@@ -101,7 +104,7 @@ impl<'a> Summary<'a> {
         sim: &'a Simulation,
         grid: &SampleGrid,
         ending: &Ending,
-        max_overlap: f64,
+        (max_overlap, map): (f64, &Map),
         wall_s: f64,
         warnings: &'a [String],
     ) -> Self {
@@ -128,6 +131,7 @@ impl<'a> Summary<'a> {
             }),
             momentum: MomentumReport { value: momentum.value.to_array(), residual: momentum.residual },
             max_overlap,
+            outside_map: count_outside(sim, map),
             hash: format!("{:016x}", sim.hash()),
             work: WorkReport {
                 pair_tests: counters.pair_tests,
@@ -176,6 +180,10 @@ impl<'a> Summary<'a> {
             line(&mut text, "spin", &format!("L = ({x}, {y}, {z}) kg·m²/s; residual {}", small(*residual)));
         }
         line(&mut text, "overlap", &format!("at most {} m at a sample", small(self.max_overlap)));
+        if self.outside_map > 0 {
+            let bodies = self.plan.dynamic_bodies;
+            line(&mut text, "outside", &format!("the map: {} of {bodies} moving bodies", self.outside_map));
+        }
         if self.work.given_up > 0 {
             let given_up = format!("{} times: a Δt ran into its limit of collisions", self.work.given_up);
             line(&mut text, "given up", &given_up);
@@ -241,6 +249,11 @@ pub fn overflow_warning(sim: &Simulation) -> Option<String> {
         "{what} beyond the largest number, about 1.8e308, and reported as null; \
          write the scene with smaller masses or speeds"
     ))
+}
+
+fn count_outside(sim: &Simulation, map: &Map) -> usize {
+    let states = sim.dynamic_bodies().filter_map(|body| sim.state(body));
+    states.filter(|state| !map.contains(state.position)).count()
 }
 
 fn energy_report(energy: Energy) -> EnergyReport {

@@ -116,6 +116,19 @@ fn the_summary_has_all_its_parts() {
     assert_eq!(summary["warnings"].as_array().map(Vec::len), Some(0));
 }
 
+/// Symptom: only the window said that bodies had left the map. Expected: the summary counts them.
+#[test]
+fn a_summary_counts_the_bodies_outside_the_map() {
+    // From x = 5 m at 4 m/s: over the edge of floor and map, at 10 m, after 1.25 s.
+    let bench = Bench::with_scene(&BOUNCE.replace(r#"Velocity X="0""#, r#"Velocity X="4""#));
+    for (until, count) in [("1", 0), ("4", 1)] {
+        let summary = &rows(&run(&bench, &["--until", until, "--json"]))[0];
+        assert_eq!(summary["outside_map"], count, "{summary}");
+        let text = run(&bench, &["--until", until]);
+        assert_eq!(text.contains("the map: 1 of 1 moving bodies"), count == 1, "{text}");
+    }
+}
+
 #[test]
 fn people_get_a_summary_when_nothing_else_goes_to_stdout() {
     let bench = Bench::with_scene(BOUNCE);

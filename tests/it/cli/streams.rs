@@ -4,7 +4,9 @@ use std::io::{BufRead as _, BufReader};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use super::{BOUNCE, Bench, rows, scenes_folder};
+use polyscene::scene::Document;
+
+use super::{BOUNCE, Bench, number, rows, scenes_folder};
 
 /// Longer than any test waits: 10⁷ rows.
 const FOR_EVER: [&str; 6] = ["run", "scene.xml", "--dt", "1e-4", "--until", "1e3"];
@@ -55,11 +57,17 @@ fn interrupted_after(bench: &Bench, file: &str, arguments: &[&str]) -> (Option<i
 #[test]
 fn ctrl_c_leaves_whole_lines() {
     let bench = Bench::with_scene(BOUNCE);
-    let options = ["--states", "states.jsonl", "--final", "final.xml"];
+    let options = ["--every", "1000", "--states", "states.jsonl", "--final", "final.xml"];
     let (code, complaint) = interrupted(&bench, &[&FOR_EVER[..], &options].concat());
     assert_eq!(code, Some(130));
     assert!(complaint.contains("interrupted at t = "), "{complaint}");
-    assert!(!rows(&bench.read("states.jsonl")).is_empty());
+    // Symptom: the state it ends with was in no row of --every 1000. Expected: the last row, once.
+    let states = rows(&bench.read("states.jsonl"));
+    let times: Vec<_> = states.iter().map(|row| number(&row["t"])).collect();
+    assert!(times.is_sorted_by(|a, b| a < b), "{times:?}");
+    let last = Document::open(&bench.path("final.xml"));
+    let y = last.scene().expect("a scene").bodies[0].position.y;
+    assert_eq!(y, number(&states.last().expect("a last row")["bodies"][0]["x"][1]));
     // Symptom: --final was not written. Expected: the state reached.
     assert!(bench.read("final.xml").contains("<SoftObject") && bench.read("final.xml") != BOUNCE);
 }

@@ -1,5 +1,6 @@
 //! Bad arguments are refused with exit code 2 and the way out; help is complete.
 
+use polyscene::record::{COST_COLUMNS, EVENT_COLUMNS};
 use polyscene::sim::EventKind;
 
 use super::{BOUNCE, Bench};
@@ -82,7 +83,11 @@ fn help_names_every_verb_option_and_kind_of_event() {
         "--max-events",
         "--max-wall",
     ];
-    for word in options.into_iter().chain(EventKind::ALL.map(EventKind::name)) {
+    let states = ["slide, roll", "\"q\"", "\"w\""];
+    let columns =
+        EVENT_COLUMNS.iter().chain(COST_COLUMNS).map(|column| column.name.trim_end_matches(['x', 'y', 'z']));
+    let words = options.into_iter().chain(states).chain(EventKind::ALL.map(EventKind::name)).chain(columns);
+    for word in words {
         assert!(help.contains(word), "{word} is missing:\n{help}");
     }
 
