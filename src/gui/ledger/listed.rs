@@ -67,10 +67,13 @@ impl Listed {
         let is_same = self.past == *ledger.past() && self.first == ledger.first();
         if !is_same || self.filter != *filter || self.order != order {
             let (past, first) = (ledger.past().clone(), ledger.first());
-            *self = Self { past, first, filter: filter.clone(), order, ..Self::default() };
-            self.rows.reserve(ledger.len());
+            let seen = ledger.count_before(filter.from);
+            *self = Self { seen, past, first, filter: filter.clone(), order, ..Self::default() };
+            self.rows.reserve(ledger.count_until(filter.to).saturating_sub(seen));
         }
-        let end = ledger.len().min(self.seen + PORTION);
+        // Rows are in the order of their times: there is nothing to list outside of the filter's.
+        let last = ledger.count_until(filter.to).max(self.seen);
+        let end = last.min(self.seen + PORTION);
         let new = (self.seen..end).filter(|nth| filter.holds(ledger, *nth));
         match order.key() {
             None => self.rows.extend(new.map(|nth| Place { key: 0.0, at: nth as u32 })),
@@ -85,7 +88,7 @@ impl Listed {
             }
         }
         self.seen = end;
-        end < ledger.len()
+        end < last
     }
 
     /// Puts more rows among those that are in order, from the end on.
@@ -186,6 +189,19 @@ mod tests {
         let holds = |seq: &u64| seq % 7 == 3 && row(*seq).event.impulse >= 1e5;
         let naive: Vec<u64> = (1..=1000).filter(holds).collect();
         assert!(naive.len() > 50 && numbers == naive, "{numbers:?}");
+    }
+
+    // Symptom: with "Only this Δt" the list stayed empty while a long run played, for each Δt began with the first row of the run.
+    // Expected: a short time is listed at once, wherever it is.
+    #[test]
+    fn a_short_time_far_in_a_run_is_listed_at_once() {
+        let far = 5 * PORTION as u64;
+        let ledger = ledger(far + 1000);
+        let filter = Filter { from: far as f64, to: far as f64 + 9.0, ..Filter::default() };
+        let mut listed = Listed::default();
+        assert!(!listed.look(&ledger, &filter, Order::default()));
+        let numbers: Vec<u64> = listed.rows(&ledger).map(|row| row.event.seq).collect();
+        assert_eq!(numbers, (far..=far + 9).collect::<Vec<_>>());
     }
 
     // Symptom: with the ledger in front the list of a long run could begin anew with a picture while it played, and showed its
