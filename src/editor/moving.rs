@@ -1,5 +1,7 @@
 //! Moving through the run by hand: to times and bookmarks, over a range again and again, to what happens to the selection.
 
+use std::collections::HashSet;
+
 use super::command::TravelCommand;
 use super::travel::{Bookmark, Way};
 use super::{Notice, Outcome, Session, Travel};
@@ -42,6 +44,11 @@ impl Session {
         self.run.show_crossings(&keys);
     }
 
+    /// Whether the frames from now on have the occupied tiles.
+    pub fn show_tiles(&mut self, wanted: bool) {
+        self.run.show_tiles(wanted);
+    }
+
     pub fn travel(&self) -> &Travel {
         &self.travel
     }
@@ -72,18 +79,21 @@ impl Session {
 
     /// The events of the selected body, or between two selected ones.
     pub(super) fn of_selection(&self) -> Of {
-        match self.selected_bodies().as_slice() {
-            [] => Of::All,
-            [one] => Of::Body(*one),
-            [a, b] => Of::Pair(*a, *b),
-            [.., last] => Of::Body(*last),
+        let Some(scene) = self.scene() else { return Of::All };
+        let is_body = |key: &NodeKey| scene.bodies.iter().any(|body| body.key == *key);
+        // Menus ask in every repaint: of a large selection it is enough to find that there are more than two.
+        let mut last = self.selection.keys().iter().rev().copied().filter(is_body);
+        match [last.next(), last.next(), last.next()] {
+            [None, ..] => Of::All,
+            [Some(b), Some(a), None] => Of::Pair(a, b),
+            [Some(last), ..] => Of::Body(last),
         }
     }
 
     fn selected_bodies(&self) -> Vec<NodeKey> {
         let Some(scene) = self.scene() else { return Vec::new() };
-        let is_body = |key: &NodeKey| scene.bodies.iter().any(|body| body.key == *key);
-        self.selection.keys().iter().copied().filter(is_body).collect()
+        let bodies: HashSet<NodeKey> = scene.bodies.iter().map(|body| body.key).collect();
+        self.selection.keys().iter().copied().filter(|key| bodies.contains(key)).collect()
     }
 
     pub(super) fn can_find_its_events(&self) -> Result<(), &'static str> {
@@ -202,7 +212,7 @@ impl Session {
         if self.run.frame.recorded.can_bring_back {
             Ok(())
         } else {
-            Err("no edit in the past has replaced what came after it")
+            Err("no edit in the past has replaced what came after it, or the memory had no room for that")
         }
     }
 }

@@ -27,6 +27,8 @@ pub(super) struct Run {
     paths: Option<PathSpan>,
     /// Of which bodies it was asked for the tile crossings.
     crossings: Arc<[NodeKey]>,
+    /// Whether it was asked for the occupied tiles.
+    tiles: bool,
     pub frame: Arc<Frame>,
     pub playback: Playback,
     pub shown_event: Option<Arc<EventRow>>,
@@ -61,6 +63,7 @@ impl Run {
             halted: 0,
             paths: None,
             crossings: Arc::default(),
+            tiles: false,
             playback,
             shown_event: None,
             running: None,
@@ -349,6 +352,14 @@ impl Run {
         if *self.crossings != *keys {
             self.crossings = keys.into();
             self.send(RunCommand::Crossings(self.crossings.clone()));
+        }
+    }
+
+    /// Whether the frames have the occupied tiles.
+    pub fn show_tiles(&mut self, wanted: bool) {
+        if self.tiles != wanted {
+            self.tiles = wanted;
+            self.send(RunCommand::Tiles(wanted));
         }
     }
 

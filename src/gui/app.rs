@@ -155,7 +155,8 @@ impl App {
         self.session.poll(Instant::now());
         self.accuracy.take_outcome();
         self.look_at_scene();
-        self.session.show_paths(self.views.wanted_paths());
+        self.session.show_paths(self.views.show_overlay("trails").then_some(viewport::PATHS));
+        self.session.show_tiles(self.views.show_overlay("tiles"));
         self.session.show_crossings(self.timeline.shows_crossings());
         let blocked = self.session.question().is_some()
             || self.dialogs.are_open()

@@ -35,12 +35,13 @@ struct Figures {
 impl Figures {
     fn of(context: &AppContext<'_>) -> Self {
         let frame = context.session.frame();
-        let allowed = if frame.counters.steps > 0 { OF_STEPPED * smallest_radius(context) } else { 0.0 };
+        let overlap = frame.worst_overlap;
+        let allowed = if overlap.is_of_stepped { OF_STEPPED * smallest_radius(context) } else { 0.0 };
         Self {
             allowed: allowed.max(NOTICEABLE),
             energy: frame.energy.and_then(|energy| energy.residual),
             momentum: frame.momentum.map(|momentum| momentum.residual),
-            overlap: frame.worst_overlap,
+            overlap: overlap.depth,
             events: frame.events.len(),
         }
     }
@@ -108,7 +109,7 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>, behind: f32) {
 fn help(frame: &Frame) -> String {
     let mut text = "ΔE: change of the total energy that impacts, drag and edits do not explain, over the energy at \
                     the start.\nΔp: change of the momentum that forces and static bodies do not explain, over the \
-                    largest sum of momenta so far.\nOverlap: the deepest of any two bodies so far; of stepped ones up to a thousandth \
+                    largest sum of momenta so far.\nOverlap: the deepest of any two bodies up to this time; of stepped ones up to a thousandth \
                     of their radius.\n"
         .to_owned();
     if let Some(total) = frame.energy.and_then(|energy| energy.total) {

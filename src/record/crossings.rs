@@ -1,9 +1,11 @@
 //! When bodies cross from one tile of the map to another, from their recorded motion: of parabolas in closed form.
 
+use std::collections::HashMap;
+
 use super::run::Run;
 use super::ways::Crossing;
 use crate::scene::{Map, NodeKey};
-use crate::sim::Piece;
+use crate::sim::{BodyRef, Piece};
 
 /// Crossings that are found in one Δt.
 const MOST: usize = 10_000;
@@ -16,8 +18,17 @@ const HALVINGS: u32 = 60;
 pub(super) fn crossings(run: &Run, keys: &[NodeKey]) -> Vec<Crossing> {
     let Some((start, end)) = run.grid.span() else { return Vec::new() };
     let (from, to) = (start.max(run.recording.from().time), end.min(run.recording.end.time));
+    if keys.is_empty() {
+        return Vec::new();
+    }
     let mut found = Vec::new();
-    for (key, body) in keys.iter().filter_map(|key| Some((*key, run.simulation.find(*key)?))) {
+    // To find each for itself would take a look at all bodies each time.
+    let bodies: HashMap<NodeKey, BodyRef> =
+        run.simulation.dynamic_bodies().map(|body| (run.simulation.key(body), body)).collect();
+    for (key, body) in keys.iter().filter_map(|key| Some((*key, *bodies.get(key)?))) {
+        if found.len() >= MOST {
+            break;
+        }
         let mut pieces = run.recording.pieces(body, from, to).peekable();
         while let Some(piece) = pieces.next() {
             let end = pieces.peek().map_or(to, |next| next.start().min(to));

@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::file::Written;
 use super::ledger::{EventRow, Ledger};
 use super::motion::RecordedMotion;
+use super::ticks::Division;
 use super::ways::{BodyPath, Crossing, ImpactBody};
 use crate::scene::{Diagnostic, NodeKey};
 use crate::sim::{ContactState, Counters, Energy, Method, Momentum, Plan, Rotation, SteppedBodies, Tiling};
@@ -62,6 +63,8 @@ pub struct Recorded {
     pub budget: usize,
     /// Times of the edits, s.
     pub edits: Vec<f64>,
+    /// How it is divided into Δt, in order.
+    pub divisions: Vec<Division>,
     /// Whether an edit in the past has replaced something that can be brought back.
     pub can_bring_back: bool,
 }
@@ -75,6 +78,15 @@ pub struct Jump {
     pub time: f64,
     /// Size of the change of the energy residual (of the momentum residual where a force has no potential).
     pub size: f64,
+}
+
+/// The deepest overlap of two bodies.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct WorstOverlap {
+    /// m.
+    pub depth: f64,
+    /// Whether bodies had been stepped by then, which may overlap a little.
+    pub is_of_stepped: bool,
 }
 
 /// Playing that reaches less than the speed asked for.
@@ -172,10 +184,11 @@ pub struct Frame {
     pub momentum: Option<Momentum>,
     /// Where the energy residual changed most since the start.
     pub largest_jump: Option<Jump>,
-    /// Deepest overlap in any frame since the start, m.
-    pub worst_overlap: f64,
+    /// In any frame up to the time shown.
+    pub worst_overlap: WorstOverlap,
     pub counters: Counters,
     pub plan: Arc<Plan>,
+    /// The occupied tiles, if they are asked for.
     pub tiling: Arc<Tiling>,
     /// Wall-clock seconds the last Δt took.
     pub step_wall_s: f64,

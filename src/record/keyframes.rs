@@ -62,9 +62,9 @@ impl Keyframes {
         self.list.push(keyframe);
     }
 
-    /// Whether enough was simulated since the last one for another.
-    pub(super) fn is_due(&self, simulation: &Simulation) -> bool {
-        self.list.last().is_none_or(|last| simulation.counters().segments >= last.next_due)
+    /// Whether with so many segments enough was simulated since the last one for another.
+    pub(super) fn is_due(&self, segments: u64) -> bool {
+        self.list.last().is_none_or(|last| segments >= last.next_due)
     }
 
     /// The last one not after a moment.

@@ -16,6 +16,7 @@ mod log;
 mod moment;
 mod motion;
 mod moving;
+mod overlaps;
 mod paths;
 mod publish;
 mod recorder;
@@ -40,7 +41,9 @@ pub use cost::Cost;
 pub use file::{
     Checkpoint, EditsAt, MOST_BYTES, NamedMoment, RecordingError, RecordingFile, Steps, WriteRequest, Written,
 };
-pub use frame::{BodyFrame, Busiest, ContactFrame, Frame, Jump, Lag, LagCause, Recorded, RunState};
+pub use frame::{
+    BodyFrame, Busiest, ContactFrame, Frame, Jump, Lag, LagCause, Recorded, RunState, WorstOverlap,
+};
 pub use inline::InlineRunner;
 pub use ledger::{EventRow, Ledger, Past};
 pub use limits::{Exceeded, LATEST_TIME, Limits, Watch, advance};
@@ -49,6 +52,7 @@ pub use motion::RecordedMotion;
 pub use recording::BUDGET as DEFAULT_RECORDING_BYTES;
 pub use rows::{COST_COLUMNS, Column, EVENT_COLUMNS, EventLine, Who, cells};
 pub use thread::ThreadRunner;
+pub use ticks::Division;
 pub use verify::{Compared, Rerun, RerunError};
 pub use ways::{BodyPath, Crossing, ImpactBody, PathSpan};
 

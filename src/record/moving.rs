@@ -1,12 +1,13 @@
 //! Moving through what is recorded, in both directions: only what is shown changes, by looking it up.
 
+use glam::DVec3;
+
 use super::command::Of;
 use super::grid::StepGrid;
-use super::ledger::EventRow;
 use super::moment::Moment;
 use super::run::Run;
 use super::ticks::Tick;
-use crate::sim::ContactState;
+use crate::sim::{BodyState, ContactState, Event};
 
 impl Run {
     pub(super) fn can_step_back(&self) -> bool {
@@ -33,22 +34,29 @@ impl Run {
         let shown = ledger.get(self.cursor.event).map(|row| row.event.time);
         let is_at_event = shown == Some(self.cursor.time) && self.grid.open.is_some();
         let last = self.cursor.event.saturating_sub(u64::from(is_at_event));
-        let mut earlier = (ledger.first()..=last).rev().filter_map(|number| ledger.get(number));
-        match earlier.find(|row| of.holds(row) && self.is_kept(row)).map(|row| row.event.seq) {
+        let first = ledger.first();
+        // Rows are not made for what is only passed.
+        let is_meant = |number: &u64| {
+            let index = (number - first) as usize;
+            let bodies = ledger.keys_at(index);
+            bodies.is_some_and(|(a, b)| of.holds_between(a, b))
+                && ledger.event_at(index).is_some_and(|event| self.is_kept(event))
+        };
+        match (first..=last).rev().find(is_meant) {
             Some(number) => self.go_to_event(number),
             None => self.message = Some("there is no recorded event before this one".into()),
         }
     }
 
     /// Whether what was at an event is known: the ledger, which drops many rows at once, has some that are older.
-    fn is_kept(&self, row: &EventRow) -> bool {
-        self.recording.from().is_not_after(Moment::right_after(row.event.seq, row.event.time))
+    fn is_kept(&self, event: &Event) -> bool {
+        self.recording.from().is_not_after(Moment::right_after(event.seq, event.time))
     }
 
     /// To a recorded event, with the Δt around it open.
     pub(super) fn go_to_event(&mut self, number: u64) {
         match self.recording.ledger.get(number) {
-            Some(row) if self.is_kept(row) => {
+            Some(row) if self.is_kept(&row.event) => {
                 let moment = Moment::right_after(number, row.event.time);
                 self.show(moment, self.grid_around_event(moment));
             }
@@ -95,13 +103,27 @@ impl Run {
 
     /// Whether all bodies lie still at what is shown.
     pub(super) fn is_at_rest(&self) -> bool {
-        let bodies = self.simulation.dynamic_bodies();
-        let rests = |state| state == ContactState::Rest;
+        self.all_bodies(|state| state.contact == ContactState::Rest || is_still(state))
+    }
+
+    /// Whether nothing moves at what is shown, and nothing will: no force of a scene depends on the time.
+    pub(super) fn is_over(&self) -> bool {
+        self.all_bodies(is_still)
+    }
+
+    /// Whether something holds of the states of all bodies at what is shown.
+    fn all_bodies(&self, holds: impl Fn(&BodyState) -> bool) -> bool {
+        let mut bodies = self.simulation.dynamic_bodies();
         if self.is_settled() {
-            return bodies.filter_map(|body| self.simulation.state(body)).all(|state| rests(state.contact));
+            return bodies.all(|body| self.simulation.state(body).is_none_or(|state| holds(&state)));
         }
         let then = self.recording.at(self.cursor);
-        let pieces = bodies.filter_map(|body| then.piece(body));
-        pieces.map(|piece| piece.at(self.cursor.time)).all(|state| rests(state.contact))
+        bodies.all(|body| then.piece(body).is_none_or(|piece| holds(&piece.at(self.cursor.time))))
     }
+}
+
+/// Without motion and cause of motion. What is stepped has its rest still before it, which is an event.
+fn is_still(state: &BodyState) -> bool {
+    let spin = state.turn.map_or(DVec3::ZERO, |turn| turn.spin);
+    state.contact != ContactState::Stepped && [state.velocity, state.acceleration, spin] == [DVec3::ZERO; 3]
 }

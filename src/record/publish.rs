@@ -44,16 +44,17 @@ pub(super) fn frame_of(recorder: &mut RunRecorder, revision: u64, command: u64, 
         real_speed: pace.real_speed,
         lag: pace.lag,
         recorded: recorder.run.as_ref().map_or_else(Arc::default, |run| {
-            Arc::new(Recorded { can_bring_back: recorder.can_bring_back(), ..recorded(run) })
+            let (bytes, can_bring_back) = (recorder.bytes(), recorder.can_bring_back());
+            Arc::new(Recorded { bytes, can_bring_back, ..recorded(run) })
         }),
         ..Frame::default()
     };
-    let (span, crossed) = (recorder.paths, recorder.crossings.clone());
+    let (span, crossed, tiles) = (recorder.paths, recorder.crossings.clone(), recorder.tiles);
     match &mut recorder.run {
         None => base,
         Some(run) if run.is_settled() => {
             run.look_for_overlap();
-            settled(looked_up(base, run, span, &crossed), run)
+            settled(looked_up(base, run, span, &crossed), run, tiles)
         }
         Some(run) => Frame { bodies: bodies_looked_up(run), ..looked_up(base, run, span, &crossed) },
     }
@@ -75,7 +76,7 @@ fn looked_up(base: Frame, run: &Run, span: Option<PathSpan>, crossed: &[NodeKey]
         crossings: Arc::new(crossings(run, crossed)),
         event_count: run.cursor.event,
         largest_jump: run.drift.largest(run.cursor.event),
-        worst_overlap: run.worst_overlap,
+        worst_overlap: run.overlaps.worst(run.cursor),
         counters: run.simulation.counters(),
         plan: Arc::new(run.simulation.plan().clone()),
         can_step_back: run.can_step_back(),
@@ -87,7 +88,7 @@ fn looked_up(base: Frame, run: &Run, span: Option<PathSpan>, crossed: &[NodeKey]
 }
 
 /// What the simulation adds once it stands there.
-fn settled(frame: Frame, run: &Run) -> Frame {
+fn settled(frame: Frame, run: &Run, tiles: bool) -> Frame {
     let simulation = &run.simulation;
     let contacts = contacts(simulation);
     Frame {
@@ -98,7 +99,7 @@ fn settled(frame: Frame, run: &Run) -> Frame {
         contacts,
         energy: Some(simulation.energy()),
         momentum: Some(simulation.momentum()),
-        tiling: Arc::new(simulation.tiling(MAX_TILES)),
+        tiling: if tiles { Arc::new(simulation.tiling(MAX_TILES)) } else { Arc::default() },
         ..frame
     }
 }
@@ -108,9 +109,10 @@ fn recorded(run: &Run) -> Recorded {
     Recorded {
         from: recording.from().time,
         to: recording.end.time,
-        bytes: recording.bytes(),
+        bytes: run.bytes(),
         budget: recording.budget(),
         edits: recording.edits().iter().map(|edits| edits.at.time).collect(),
+        divisions: recording.ticks.divisions(),
         can_bring_back: false,
     }
 }

@@ -35,6 +35,8 @@ pub(super) struct RunRecorder {
     pub(super) paths: Option<PathSpan>,
     /// Of which bodies frames have the tile crossings.
     pub(super) crossings: Arc<[NodeKey]>,
+    /// Whether frames have the occupied tiles.
+    pub(super) tiles: bool,
     /// The file that was written last.
     pub(super) written: Option<Arc<Written>>,
     /// The motion that was asked for.
@@ -54,6 +56,7 @@ impl Default for RunRecorder {
             budget: BUDGET,
             paths: None,
             crossings: Arc::default(),
+            tiles: false,
             written: None,
             motion: None,
         }
@@ -88,6 +91,7 @@ impl RunRecorder {
             RunCommand::Budget(bytes) => self.set_budget(bytes),
             RunCommand::Paths(span) => self.paths = span,
             RunCommand::Crossings(keys) => self.crossings = keys,
+            RunCommand::Tiles(wanted) => self.tiles = wanted,
             RunCommand::ShareMotion(wanted) => {
                 let run = self.run.as_ref().filter(|_| wanted);
                 self.motion = run.map(|run| Arc::new(RecordedMotion::of(&run.recording, &run.simulation)));
@@ -134,6 +138,12 @@ impl RunRecorder {
 
     /// Works on for at most `events` events; whether there is more to do at once.
     pub(super) fn work(&mut self, events: u32) -> bool {
+        let has_more = self.work_on(events);
+        self.stay_within_budget();
+        has_more
+    }
+
+    fn work_on(&mut self, events: u32) -> bool {
         let mut budget = events;
         while budget > 0 {
             if !self.edits.is_empty() {
@@ -173,6 +183,19 @@ impl RunRecorder {
     fn take_edits(&mut self, edits: Vec<SimEdit>) {
         self.edits.extend(edits);
         self.replaced = None;
+    }
+
+    /// Bytes that are kept of all runs.
+    pub(super) fn bytes(&self) -> usize {
+        let all = self.run.iter().chain(self.replaced.as_deref());
+        all.map(Run::bytes).sum()
+    }
+
+    /// Drops the run that an edit of the start has replaced where both take too much.
+    fn stay_within_budget(&mut self) {
+        if self.replaced.is_some() && self.bytes() > self.budget {
+            self.replaced = None;
+        }
     }
 
     /// Whether an edit in the past, or of the start, has replaced something that can be brought back.
@@ -290,6 +313,7 @@ impl RunRecorder {
 
     fn set_budget(&mut self, bytes: usize) {
         self.budget = bytes;
+        self.stay_within_budget();
         if let Some(run) = &mut self.run {
             run.set_budget(bytes);
         }

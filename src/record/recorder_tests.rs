@@ -5,16 +5,17 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use super::command::RunCommand;
+use super::command::{Of, RunCommand};
 use super::file::WriteRequest;
 use super::frame::{Frame, RunState};
 use super::publish::{Pace, frame_of};
 use super::recorder::RunRecorder;
 use crate::scene::{Document, NodeKey, Scene};
-use crate::sim::SimEdit;
+use crate::sim::{Method, SimEdit};
 
 const BOUNCE: &[u8] = include_bytes!("../../scenes/bounce.xml");
 const THESIS: &[u8] = include_bytes!("../../scenes/thesis-appendix-2.xml");
+const GAS: &[u8] = include_bytes!("../../scenes/gas.xml");
 const LONG: RunCommand = RunCommand::Step { dt: 0.01, count: 1_000_000 };
 
 fn scene(bytes: &[u8]) -> Arc<Scene> {
@@ -191,4 +192,61 @@ fn playing_over_a_range_keeps_to_what_is_recorded_of_it() {
         assert_eq!(frame.state, RunState::Paused);
         assert!(frame.message.is_some_and(|message| message.contains("nothing is recorded of the range")));
     }
+}
+
+/// Symptom: what an edit had replaced was kept whatever it took, beside a recording that took all of the memory. Expected: it counts,
+/// and goes first.
+#[test]
+fn what_an_edit_replaced_counts_and_is_dropped_first() {
+    for at in [0.0, 0.5] {
+        let mut recorder = loaded(THESIS);
+        let key = frame(&mut recorder).bodies[0].key;
+        recorder.command(RunCommand::Step { dt: 0.01, count: 3000 });
+        let before = frame_when_done(&mut recorder).recorded.bytes;
+        recorder.command(RunCommand::Seek { dt: 0.01, time: at });
+        frame_when_done(&mut recorder);
+        if at > 0.0 {
+            recorder.command(mass(key, 3.0));
+        } else {
+            recorder.command(RunCommand::LoadEdited { scene: scene(THESIS), keeps_run: true });
+        }
+        let edited = frame_when_done(&mut recorder).recorded;
+        assert!(edited.can_bring_back && edited.bytes >= before, "{} bytes after {before}", edited.bytes);
+        recorder.command(RunCommand::Budget(before / 2));
+        let kept = frame_when_done(&mut recorder).recorded;
+        assert!(!kept.can_bring_back && kept.bytes < before / 4, "{} bytes", kept.bytes);
+        assert_eq!((kept.from, kept.to), (0.0, at), "nothing of the run itself was dropped");
+    }
+}
+
+/// Symptom: in a long Δt each look back simulated again from its start. Expected: keyframes lie inside it too, with the same bits.
+#[test]
+fn a_long_step_has_keyframes_inside() {
+    for method in [Method::Exact, Method::Thesis, Method::Fixed] {
+        let mut recorder = RunRecorder::default();
+        recorder.command(RunCommand::Method(method));
+        recorder.command(RunCommand::Load(scene(GAS)));
+        recorder.command(RunCommand::Step { dt: 40.0, count: 1 });
+        frame_when_done(&mut recorder);
+        let states: Vec<_> = recorder.run.as_ref().unwrap().recording.keyframes.states().collect();
+        let inside = states.iter().filter(|(at, ..)| at.time % 40.0 != 0.0).count();
+        assert!(inside > 0 || method != Method::Exact, "{inside} of {} keyframes", states.len());
+        for (at, _, hash) in states.into_iter().rev() {
+            recorder.command(RunCommand::Show(at));
+            assert_eq!(frame_when_done(&mut recorder).complaint(), None, "{method:?} at {at:?}");
+            assert_eq!(recorder.run.as_ref().unwrap().simulation.hash(), hash, "{method:?} at {at:?}");
+        }
+    }
+}
+
+/// Symptom: without gravity "next event" simulated 10 000 Δt of nothing. Expected: it says at once that nothing moves.
+#[test]
+fn where_nothing_moves_there_is_no_next_event() {
+    let without = std::str::from_utf8(BOUNCE).unwrap().replace("-9.8", "0");
+    let mut recorder = loaded(without.as_bytes());
+    recorder.command(RunCommand::NextEvent { dt: 0.01, of: Of::All });
+    let frame = frame_when_done(&mut recorder);
+    assert!(frame.message.is_some_and(|message| message.contains("nothing moves")));
+    assert_eq!((frame.time, frame.event_count), (0.0, 0));
+    assert!(frame.recorded.to < 0.1, "{} s were simulated", frame.recorded.to);
 }

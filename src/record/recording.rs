@@ -36,8 +36,9 @@ pub(super) struct Recording {
     pub(super) ledger: Ledger,
     pub(super) ticks: Ticks,
     pub(super) keyframes: Keyframes,
-    /// In the order of their stamps.
+    /// In the order of their stamps, and the bytes that they take.
     edits: Vec<RecordedEdits>,
+    edit_bytes: usize,
     /// From when on it is kept: what was before was dropped to stay within the budget.
     from: Moment,
     /// Up to where the run is known.
@@ -65,11 +66,23 @@ pub(super) struct Future {
     /// How many edits and pieces were before it.
     edits_before: usize,
     pieces_before: u64,
+    /// About what it takes.
+    bytes: usize,
 }
 
 impl Future {
     pub(super) fn edit_count(&self) -> usize {
         self.edits.len()
+    }
+
+    pub(super) fn bytes(&self) -> usize {
+        self.bytes
+    }
+}
+
+impl RecordedEdits {
+    fn bytes(&self) -> usize {
+        size_of::<Self>() + size_of_val(&*self.edits)
     }
 }
 
@@ -84,6 +97,7 @@ impl Recording {
             ticks: Ticks::new(at, grid),
             keyframes: Keyframes::default(),
             edits: Vec::new(),
+            edit_bytes: 0,
             from: at,
             end: at,
             end_grid: grid,
@@ -104,19 +118,25 @@ impl Recording {
         self.ledger.note(event, cost);
     }
 
-    /// Notes the end of a Δt, with a keyframe now and then.
-    pub(super) fn note_tick(&mut self, simulation: &Simulation) {
-        let at = self.end;
-        self.ticks.note(Tick { at, grid: self.end_grid });
-        if self.keyframes.is_due(simulation) {
-            self.keyframes.push(Keyframe::new(simulation, at, self.edits.len()));
+    /// Notes the end of a Δt.
+    pub(super) fn note_tick(&mut self) {
+        self.ticks.note(Tick { at: self.end, grid: self.end_grid });
+    }
+
+    /// Adds a keyframe now and then, by the number of segments, at the end of what is known. A Δt may be as long as the run: they
+    /// lie inside it too.
+    pub(super) fn note_keyframe(&mut self, simulation: &Simulation, segments: u64) {
+        if self.keyframes.is_due(segments) {
+            self.keyframes.push(Keyframe::new(simulation, self.end, self.edits.len()));
             self.thin_keyframes();
         }
     }
 
     /// Records edits made at the end of what is known.
     pub(super) fn note_edits(&mut self, simulation: &Simulation, edits: Vec<SimEdit>) {
-        self.edits.push(RecordedEdits { at: self.end, edits });
+        let edits = RecordedEdits { at: self.end, edits };
+        self.edit_bytes += edits.bytes();
+        self.edits.push(edits);
         self.ledger.rename(Arc::new(Names::of(simulation)));
         let keyframe = Keyframe::new(simulation, self.end, self.edits.len());
         self.keyframes.push(keyframe.after_edit());
@@ -166,7 +186,8 @@ impl Recording {
     }
 
     pub(super) fn bytes(&self) -> usize {
-        self.log.bytes() + self.ledger.bytes() + self.keyframes.bytes() + self.ticks.bytes()
+        let moved = self.log.bytes() + self.keyframes.bytes();
+        moved + self.ledger.bytes() + self.ticks.bytes() + self.edit_bytes
     }
 
     pub(super) fn budget(&self) -> usize {
@@ -219,7 +240,8 @@ impl Recording {
     pub(super) fn split_off(&mut self, at: Moment) -> Future {
         let edits_before = self.edits.partition_point(|edits| edits.at.is_not_after(at));
         self.look_at = self.budget;
-        Future {
+        let before = self.bytes();
+        let mut future = Future {
             from: at,
             end: std::mem::replace(&mut self.end, at),
             end_grid: self.end_grid,
@@ -232,7 +254,15 @@ impl Recording {
             edits: self.edits.split_off(edits_before),
             edits_before,
             pieces_before: self.log.count(),
-        }
+            bytes: 0,
+        };
+        self.count_edit_bytes();
+        future.bytes = before.saturating_sub(self.bytes());
+        future
+    }
+
+    fn count_edit_bytes(&mut self) {
+        self.edit_bytes = self.edits.iter().map(RecordedEdits::bytes).sum();
     }
 
     /// Puts back what was taken, in place of what lies after the moment where it was.
@@ -251,5 +281,6 @@ impl Recording {
             self.keyframes.set_head(*head);
         }
         self.edits.extend(future.edits);
+        self.count_edit_bytes();
     }
 }

@@ -4,9 +4,11 @@ use std::sync::Arc;
 
 use super::cost::Cost;
 use super::drift::Drift;
+use super::frame::WorstOverlap;
 use super::grid::StepGrid;
 use super::ledger::Names;
 use super::moment::Moment;
+use super::overlaps::Overlaps;
 use super::recording::{Future, Recording};
 use super::ticks::Tick;
 use crate::scene::Scene;
@@ -35,8 +37,7 @@ pub(super) struct Run {
     /// What an edit in the past has replaced, until the next edit.
     dropped: Option<Replaced>,
     pub(super) drift: Drift,
-    /// Deepest overlap at any time looked at so far, m.
-    pub(super) worst_overlap: f64,
+    pub(super) overlaps: Overlaps,
     /// Why the last edit that was refused was: until another one is, for frames come less often than commands.
     pub(super) refused: Option<Arc<str>>,
     /// What there is to say of the last command otherwise.
@@ -60,8 +61,9 @@ pub(super) struct Stopped {
 #[derive(Debug)]
 struct Replaced {
     future: Future,
-    /// How the books were off at the end of it, and what was counted at its last event.
+    /// How the books were off at the end of it, how bodies overlapped, and what was counted at its last event.
     drift: Drift,
+    overlaps: Overlaps,
     counted: Counters,
 }
 
@@ -96,8 +98,8 @@ impl Run {
     pub(super) fn new(mut simulation: Simulation, scene: Arc<Scene>, budget: usize) -> Self {
         let grid = StepGrid::new();
         let recording = Recording::new(&mut simulation, grid, budget);
-        Self {
-            worst_overlap: simulation.worst_overlap(),
+        let mut run = Self {
+            overlaps: Overlaps::default(),
             cursor: recording.end,
             at: recording.end,
             simulation,
@@ -112,7 +114,9 @@ impl Run {
             fault: None,
             is_between: false,
             counted: Counters::default(),
-        }
+        };
+        run.look_for_overlap();
+        run
     }
 
     /// Whether the simulation is at what is shown.
@@ -184,6 +188,7 @@ impl Run {
         let slice = match progress {
             Ok(Progress::Event(event)) => {
                 self.note(&event);
+                self.recording.note_keyframe(&self.simulation, self.counted.segments);
                 Slice::Event
             }
             Ok(Progress::Working) => Slice::Pause,
@@ -191,7 +196,8 @@ impl Run {
             Ok(Progress::Done) => {
                 self.grid.close();
                 self.recording.end_grid = self.grid;
-                self.recording.note_tick(&self.simulation);
+                self.recording.note_tick();
+                self.recording.note_keyframe(&self.simulation, self.simulation.counters().segments);
                 Slice::Done
             }
             Err(fault) => {
@@ -199,9 +205,7 @@ impl Run {
                 Slice::Pause
             }
         };
-        if self.recording.stay_within_budget() {
-            self.forget_unreachable();
-        }
+        self.stay_within_budget();
         slice
     }
 
@@ -280,8 +284,10 @@ impl Run {
         self.fault = None;
         let drift = self.drift.clone();
         self.drift.drop_after(self.cursor.event, &self.simulation);
+        let overlaps = self.overlaps.clone();
+        self.overlaps.drop_after(self.cursor);
         let counted = std::mem::replace(&mut self.counted, self.simulation.counters());
-        self.dropped = Some(Replaced { future, drift, counted });
+        self.dropped = Some(Replaced { future, drift, overlaps, counted });
     }
 
     /// Whether an edit in the past has replaced something that can be brought back.
@@ -289,7 +295,23 @@ impl Run {
         self.dropped.is_some()
     }
 
+    /// Bytes that are kept of the run: the recording, and what an edit has replaced.
+    pub(super) fn bytes(&self) -> usize {
+        self.recording.bytes() + self.dropped.as_ref().map_or(0, |replaced| replaced.future.bytes())
+    }
+
+    /// Drops, where all takes too much, first what an edit has replaced, then the oldest.
+    fn stay_within_budget(&mut self) {
+        if self.dropped.is_some() && self.bytes() > self.recording.budget() {
+            self.dropped = None;
+        }
+        if self.recording.stay_within_budget() {
+            self.forget_unreachable();
+        }
+    }
+
     pub(super) fn set_budget(&mut self, bytes: usize) {
+        self.dropped.take_if(|replaced| self.recording.bytes() + replaced.future.bytes() > bytes);
         self.recording.set_budget(bytes);
         self.forget_unreachable();
         let from = self.recording.from();
@@ -306,12 +328,12 @@ impl Run {
 
     /// Takes the last edit in the past back: what it replaced is the future again.
     pub(super) fn bring_back(&mut self) {
-        let Some(Replaced { future, drift, counted }) = self.dropped.take() else {
+        let Some(Replaced { future, drift, overlaps, counted }) = self.dropped.take() else {
             self.message = Some("no edit in the past has replaced anything".into());
             return;
         };
         let moment = future.from;
-        (self.drift, self.counted) = (drift, counted);
+        (self.drift, self.overlaps, self.counted) = (drift, overlaps, counted);
         self.recording.put_back(future);
         self.show(moment, self.grid_at(moment));
         self.fault = None;
@@ -326,9 +348,10 @@ impl Run {
         self.drift.note(&self.simulation, event);
     }
 
-    /// Looks for overlaps now. It costs a look through the tiles, so it is done when a frame is made.
+    /// Looks for overlaps where the simulation stands. It costs a look through the tiles, so it is done when a frame is made.
     pub(super) fn look_for_overlap(&mut self) {
-        self.worst_overlap = self.worst_overlap.max(self.simulation.worst_overlap());
+        let is_of_stepped = self.simulation.counters().steps > 0;
+        self.overlaps.note(self.at, WorstOverlap { depth: self.simulation.worst_overlap(), is_of_stepped });
     }
 
     /// Changes the scene at what is shown, where the simulation stands, and records what was accepted. What was recorded
@@ -359,5 +382,6 @@ impl Run {
         self.recording.note_edits(&self.simulation, edits);
         self.applied = self.recording.edits().len();
         self.fault = None;
+        self.stay_within_budget();
     }
 }

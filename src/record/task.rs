@@ -62,6 +62,9 @@ const MOST_EMPTY_STEPS: u32 = 100_000;
 /// Δt without an event after which "next event" stops looking: some minutes of most scenes.
 const MOST_STEPS_TO_EVENT: u32 = 10_000;
 
+/// Empty Δt after which it looks again whether anything moves.
+const STEPS_BETWEEN_LOOKS: u32 = 64;
+
 impl Task {
     /// Does one Δt, or what the budget allows; false when a task cannot go on for now.
     pub(super) fn advance(&mut self, run: &mut Run, budget: &mut u32) -> bool {
@@ -79,15 +82,16 @@ impl Task {
                 let (moment, grid) = *from.get_or_insert((run.cursor, run.grid));
                 match run.slice(*dt, Stop::AT_EVENTS, budget) {
                     Slice::Event if is_reached(run, *of) => *self = Self::Idle,
-                    Slice::Done if *empty >= MOST_STEPS_TO_EVENT => {
-                        if run.recording.from().is_not_after(moment) {
-                            run.show(moment, grid);
+                    Slice::Done => match no_event(run, *empty) {
+                        None => *empty += 1,
+                        Some(why) => {
+                            if run.recording.from().is_not_after(moment) {
+                                run.show(moment, grid);
+                            }
+                            run.message = Some(why.into());
+                            *self = Self::Idle;
                         }
-                        let text = format!("no event within {MOST_STEPS_TO_EVENT} Δt after this");
-                        run.message = Some(text.into());
-                        *self = Self::Idle;
-                    }
-                    Slice::Done => *empty += 1,
+                    },
                     Slice::Event | Slice::Stopped | Slice::Pause => {}
                 }
             }
@@ -117,6 +121,15 @@ impl Task {
         *self = Self::Idle;
         true
     }
+}
+
+/// Why "next event" stops looking after so many empty Δt and this one.
+fn no_event(run: &Run, empty: u32) -> Option<String> {
+    // A look at all bodies costs.
+    if empty.is_multiple_of(STEPS_BETWEEN_LOOKS) && run.is_over() {
+        return Some("there is no event after this: nothing moves, and no force acts on what could".into());
+    }
+    (empty >= MOST_STEPS_TO_EVENT).then(|| format!("no event within {MOST_STEPS_TO_EVENT} Δt after this"))
 }
 
 fn is_reached(run: &Run, of: Of) -> bool {

@@ -4,6 +4,20 @@ use super::file::Steps;
 use super::grid::StepGrid;
 use super::moment::Moment;
 
+/// Stretches of equal Δt that are told of.
+const MOST_DIVISIONS: usize = 1000;
+
+/// Δt of one length, one after the other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Division {
+    /// Where they begin to be counted, s: the k-th ends k·`dt` later.
+    pub origin: f64,
+    /// s.
+    pub dt: f64,
+    /// End of the last, s. Another division begins there or later.
+    pub to: f64,
+}
+
 /// End of a Δt.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tick {
@@ -71,6 +85,23 @@ impl Ticks {
                 _ => self.early.push(Early { origin, dt, first: number, count: 1 }),
             }
         }
+    }
+
+    /// The Δt that are kept, as stretches of one length each; of very many stretches the first.
+    pub(super) fn divisions(&self) -> Vec<Division> {
+        let (mut divisions, mut rest) = (Vec::new(), self.kept.as_slice());
+        while let Some(first) = rest.first().filter(|_| divisions.len() < MOST_DIVISIONS) {
+            let stretch = first.grid.stretch();
+            // Those of one stretch lie side by side.
+            let count = rest.partition_point(|tick| tick.grid.stretch() == stretch).max(1);
+            let ((origin, dt), to) = (stretch, rest[count - 1].at.time);
+            // The start is the end of no Δt.
+            if dt > 0.0 {
+                divisions.push(Division { origin, dt, to });
+            }
+            rest = &rest[count..];
+        }
+        divisions
     }
 
     /// When the Δt ends in which a time lies.
@@ -159,6 +190,9 @@ mod tests {
                 ends.push(end);
             }
         }
+        let divisions = ticks.divisions();
+        assert_eq!(divisions.len(), 4);
+        assert!(divisions.windows(2).all(|pair| pair[0].to == pair[1].origin), "{divisions:?}");
         let steps = ticks.steps();
         assert_eq!(steps.iter().map(|steps| steps.count).collect::<Vec<_>>(), [100; 4]);
         for part in [0.0, 0.05, 0.3, 0.9, 1.0] {

@@ -17,8 +17,11 @@ fn check(scene: &[u8], dt: f64, before: u32) -> usize {
     let mut runner = InlineRunner::new();
     runner.send(RunCommand::Load(scene.clone()));
     runner.send(RunCommand::Step { dt, count: before + 1 });
-    assert!(runner.frame().crossings.is_empty(), "nobody asked");
+    let asks_nothing = runner.frame();
+    assert!(asks_nothing.crossings.is_empty() && asks_nothing.tiling.occupied.is_empty(), "nobody asked");
     runner.send(RunCommand::Crossings(keys));
+    runner.send(RunCommand::Tiles(true));
+    assert!(!runner.frame().tiling.occupied.is_empty());
     runner.send(RunCommand::ShareMotion(true));
     let frame = runner.frame();
     let motion = frame.motion.as_ref().expect("the motion");

@@ -84,6 +84,24 @@ fn going_to_an_event_stands_right_there_and_forgets_later_jumps() {
     assert_eq!(runner.frame().event_count, frame.event_count, "there is no such event");
 }
 
+/// Symptom: back at the start of a heap, its overlap of later was kept, but not what stepped bodies may have. Expected: what is
+/// known up to the time shown, and all of it again at the end.
+#[test]
+fn going_back_leaves_the_overlaps_up_to_there() {
+    let mut runner = runner_of("bin.xml", Method::Exact);
+    let at_start = runner.frame().worst_overlap;
+    let dt = 1.0 / 60.0;
+    for _ in 0..60 {
+        runner.send(RunCommand::Step { dt, count: 4 });
+    }
+    let (end, at_end) = (runner.frame().time, runner.frame().worst_overlap);
+    assert!(at_end.depth > at_start.depth && at_end.is_of_stepped, "{at_end:?}");
+    runner.send(RunCommand::Seek { dt, time: 0.0 });
+    assert_eq!(runner.frame().worst_overlap, at_start);
+    runner.send(RunCommand::Seek { dt, time: end });
+    assert_eq!(runner.frame().worst_overlap, at_end);
+}
+
 /// Symptom: bringing a replaced future back lost its largest change, and the next event had the difference to the other future.
 /// Expected: as though there had been no edit. Cause: the records were dropped, and the residual to compare with was that of the
 /// future given up.

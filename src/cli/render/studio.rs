@@ -27,6 +27,7 @@ impl<'a> Studio<'a> {
     pub fn new(args: &'a RenderArgs, scene: &'a Scene) -> Self {
         let mut runner = InlineRunner::limited(args.limits.limits());
         runner.send(RunCommand::Method(args.method));
+        runner.send(RunCommand::Tiles(true));
         runner.send(RunCommand::Load(Arc::new(scene.clone())));
         let frame = runner.frame();
         Self { args, scene, runner, offscreen: None, frame, notes: Vec::new() }

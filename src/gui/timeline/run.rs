@@ -14,7 +14,7 @@ use crate::gui::colors::{Tones, color32, tones};
 use crate::gui::context::AppContext;
 use crate::gui::numbers::significant;
 use crate::gui::widgets::name_button;
-use crate::record::Frame;
+use crate::record::{Division, Frame};
 
 pub(super) const HEIGHT: f32 = 38.0;
 
@@ -200,20 +200,32 @@ fn density(painter: &egui::Painter, frame: &Frame, axis: &Axis, color: Color32) 
 
 /// Where the Δt end, if that can be told apart.
 fn ticks(painter: &egui::Painter, frame: &Frame, axis: &Axis, color: Color32) {
-    let Some((start, end)) = frame.step else { return };
-    let length = end - start;
-    if length < TICKS_APART * axis.scale() {
-        return;
+    let bottom = axis.line.bottom();
+    // The one that is open has not ended yet.
+    let is_seen = |(from, to): &(f64, f64)| to - from >= TICKS_APART * axis.scale() && *to <= axis.to;
+    let open = frame.open_step.filter(is_seen).map(|(_, to)| to);
+    for time in tick_times(&frame.recorded.divisions, axis).into_iter().chain(open) {
+        painter.vline(axis.x(time), bottom - 3.0..=bottom, Stroke::new(1.0, color));
     }
-    let first = ((axis.from - start) / length).ceil();
-    let count = ((axis.to - axis.from) / length).min(10_000.0) as u32;
-    for nth in 0..=count {
-        let time = start + (first + f64::from(nth)) * length;
-        if time <= axis.to && time <= frame.recorded.to.max(end) {
-            let bottom = axis.line.bottom();
-            painter.vline(axis.x(time), bottom - 3.0..=bottom, Stroke::new(1.0, color));
+}
+
+/// Ends of the Δt that lie on the axis, of those that are long enough.
+fn tick_times(divisions: &[Division], axis: &Axis) -> Vec<f64> {
+    let mut times = Vec::new();
+    let mut before = f64::NEG_INFINITY;
+    for division in divisions {
+        let Division { origin, dt, to } = *division;
+        let from = axis.from.max(origin).max(before);
+        before = to;
+        if dt < TICKS_APART * axis.scale() || from > to {
+            continue;
         }
+        let first = ((from - origin) / dt).floor();
+        let count = ((axis.to.min(to) - from) / dt).clamp(0.0, 10_000.0) as u32 + 2;
+        let ends = (0..=count).map(|nth| origin + (first + f64::from(nth)) * dt);
+        times.extend(ends.filter(|time| (from..=axis.to.min(to)).contains(time)));
     }
+    times
 }
 
 /// Times below the line.
@@ -285,4 +297,25 @@ fn describe(frame: &Frame, axis: &Axis, at: Pos2) -> String {
     }
     text += "\nWheel: zoom. Right button: move. Shift: range that playing repeats. Double click: all";
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Symptom: the ends of all Δt were marked as though each had been as long as the present one. Expected: where they are.
+    #[test]
+    fn the_ends_of_delta_t_of_each_length_are_marked() {
+        let divisions = [(0.0, 1.0, 3.0), (3.0, 0.5, 4.5)];
+        let divisions = divisions.map(|(origin, dt, to)| Division { origin, dt, to });
+        let line = Rect::from_min_size(pos2(0.0, 0.0), vec2(500.0, 20.0));
+        let times = |from: f64, to: f64| {
+            let mut times = tick_times(&divisions, &Axis { line, from, to });
+            times.dedup();
+            times
+        };
+        assert_eq!(times(0.0, 5.0), [0.0, 1.0, 2.0, 3.0, 3.5, 4.0, 4.5]);
+        assert_eq!(times(1.5, 3.6), [2.0, 3.0, 3.5]);
+        assert!(times(4.6, 5.0).is_empty());
+    }
 }

@@ -51,7 +51,8 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>, crossings: &mut bool) {
     let events = events_between(frame, from, to);
     let hovered = response.hover_pos().and_then(|at| axis.nearest(&events, at));
     let largest = events.iter().map(|row| row.event.impulse).fold(0.0, f64::max);
-    let shown = context.session.shown_event().filter(|shown| events.contains(shown));
+    let shown = context.session.shown_event();
+    let shown = shown.filter(|shown| is_among(&events, shown.event.seq));
     let marks = axis.marks(&events);
     let is_crowd = marks.len() as f32 * APART > axis.line.width();
     let mut crowd = Mesh::default();
@@ -102,10 +103,15 @@ fn label(frame: &Frame, crossings: bool) -> String {
 }
 
 /// The recorded events of a Δt; of very many the first.
-fn events_between(frame: &Frame, from: f64, to: f64) -> Vec<Arc<EventRow>> {
+fn events_between(frame: &Frame, from: f64, to: f64) -> Vec<&Arc<EventRow>> {
     let first = frame.ledger.count_before(from);
     let until = frame.ledger.count_until(to.min(frame.recorded.to));
-    frame.ledger.iter_from(first).take(until.saturating_sub(first).min(MOST_EVENTS)).cloned().collect()
+    frame.ledger.iter_from(first).take(until.saturating_sub(first).min(MOST_EVENTS)).collect()
+}
+
+/// Whether an event of this number is in rows that are in order.
+fn is_among(rows: &[&Arc<EventRow>], seq: u64) -> bool {
+    rows.binary_search_by_key(&seq, |row| row.event.seq).is_ok()
 }
 
 /// A click goes to an event, a double click shows its place large; elsewhere a click or a drag goes to that time.
@@ -247,13 +253,13 @@ impl Axis {
 
     /// The events to be drawn: of many, at each place the one of each kind of head that hides the others, for what
     /// cannot be told apart need not be drawn.
-    fn marks<'a>(&self, rows: &'a [Arc<EventRow>]) -> Vec<&'a Arc<EventRow>> {
+    fn marks<'a>(&self, rows: &[&'a Arc<EventRow>]) -> Vec<&'a Arc<EventRow>> {
         if rows.len() <= ALL_DRAWN {
-            return rows.iter().collect();
+            return rows.to_vec();
         }
         let places = (self.line.width() * PLACES_PER_POINT).max(0.0) as usize + 1;
         let mut highest: Vec<[Option<&Arc<EventRow>>; 3]> = vec![[None; 3]; places];
-        for row in rows {
+        for row in rows.iter().copied() {
             let place = ((self.x(row.event.time) - self.line.left()) * PLACES_PER_POINT) as usize;
             let kept = &mut highest[place.min(places - 1)][Head::of(row) as usize];
             if kept.is_none_or(|kept| kept.event.impulse < row.event.impulse) {
@@ -312,9 +318,9 @@ impl Axis {
         near.min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
 
-    fn nearest<'a>(&self, rows: &'a [Arc<EventRow>], at: Pos2) -> Option<&'a Arc<EventRow>> {
+    fn nearest<'a>(&self, rows: &[&'a Arc<EventRow>], at: Pos2) -> Option<&'a Arc<EventRow>> {
         let distance = |row: &EventRow| (self.x(row.event.time) - at.x).abs();
-        let near = rows.iter().filter(|row| distance(row) < REACH);
+        let near = rows.iter().copied().filter(|row| distance(row) < REACH);
         near.min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
 }
@@ -374,6 +380,8 @@ mod tests {
     #[test]
     fn many_events_are_drawn_as_many_marks_as_can_be_told_apart() {
         let rows: Vec<_> = (1..=20_000).map(row).collect();
+        let rows: Vec<_> = rows.iter().collect();
+        assert!(is_among(&rows, 77) && !is_among(&rows, 20_001));
         let axis = Axis { line: Rect::from_min_size(Pos2::ZERO, vec2(800.0, 20.0)), from: 0.0, to: 1.0 };
         let marks = axis.marks(&rows);
         assert!((800..=3 * 801).contains(&marks.len()), "{} marks", marks.len());

@@ -89,7 +89,7 @@ pub struct Views {
 }
 
 /// Ways of the bodies that are shown, s: what a person can follow.
-const PATHS: PathSpan = PathSpan { past: 1.0, future: 1.0 };
+pub const PATHS: PathSpan = PathSpan { past: 1.0, future: 1.0 };
 
 /// The frame to draw while the simulation stands at its start: a body that is being dragged is where the
 /// document has it, before the simulation knows.
@@ -213,12 +213,10 @@ impl Views {
         }
     }
 
-    /// How much of the bodies' ways the views show.
-    pub fn wanted_paths(&self) -> Option<PathSpan> {
-        let shown = (0..self.panes.len()).filter(|index| self.is_shown(*index));
-        let any =
-            shown.filter_map(|index| self.panes.get(index)).any(|pane| pane.overlays.contains("trails"));
-        any.then_some(PATHS)
+    /// Whether any view shows an overlay.
+    pub fn show_overlay(&self, id: &str) -> bool {
+        let mut shown = self.panes.iter().enumerate().filter(|(index, _)| self.is_shown(*index));
+        shown.any(|(_, pane)| pane.overlays.contains(id))
     }
 
     /// Whether the layout shows a view.

@@ -35,7 +35,8 @@ pub(in crate::view) fn add(stage: &Stage<'_>, list: &mut DrawList) {
     }
     let occupied = tiling.occupied.len();
     if occupied > MOST || tiling.truncated {
-        list.notes.push(format!("Tiles: {} of more than {occupied} occupied ones.", occupied.min(MOST)));
+        let of = if tiling.truncated { "more than " } else { "" };
+        list.notes.push(format!("Tiles: {} of {of}{occupied} occupied ones.", occupied.min(MOST)));
     }
 }
 
