@@ -19,6 +19,12 @@ pub fn significant(value: f64, digits: usize) -> String {
     trimmed(&format!("{value:.decimals$}")).to_owned()
 }
 
+/// As [`significant`], with fewer digits where it would be longer than so many characters.
+pub fn fitting(value: f64, digits: usize, longest: usize) -> String {
+    let mut texts = (1..=digits).rev().map(|digits| significant(value, digits));
+    texts.find(|text| text.chars().count() <= longest).unwrap_or_else(|| significant(value, 1))
+}
+
 /// A residual or another small number: `0`, `3e-16`; one that is not small as it is, `0.163`.
 pub fn tiny(value: f64) -> String {
     if value.abs() >= 1e-3 || value == 0.0 { significant(value, 3) } else { format!("{value:.0e}") }
@@ -69,6 +75,15 @@ mod tests {
         ];
         for (value, text) in cases {
             assert_eq!(significant(value, 6), text);
+        }
+        let cases = [
+            (1.0 / 3.0, "0.3333333"),
+            (-1.713_907e-16, "-1.71e-16"),
+            (-0.000_123_456_7, "-0.000123"),
+            (-1.5e-300, "-1.5e-300"),
+        ];
+        for (value, text) in cases {
+            assert_eq!(fitting(value, 7, 9), text);
         }
         assert_eq!(count(1_234_567), "1\u{2009}234\u{2009}567");
     }

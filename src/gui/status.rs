@@ -1,6 +1,6 @@
 //! The status bar: where the simulation stands, how quick and how exact it is.
 
-use egui::{RichText, Ui};
+use egui::{RichText, Role, Ui, WidgetInfo};
 
 use super::colors::{color32, tones};
 use super::context::AppContext;
@@ -18,25 +18,35 @@ pub struct Pace {
 
 pub fn show(ui: &mut Ui, context: &AppContext<'_>, pace: &Pace) {
     let frame = context.session.frame();
+    let notes: Vec<Note> = [stepped(context), outside(ui, context)].into_iter().flatten().collect();
     ui.horizontal_centered(|ui| {
-        ui.spacing_mut().item_spacing.x = 5.0;
+        ui.spacing_mut().item_spacing.x = SPACING;
+        // What tells of trouble stays whole: numbers that matter less make room for it.
+        let verified_width = if context.session.verified().is_some() { VERIFIED } else { 0.0 };
+        let behind = width_of(ui, &notes, |note| &note.short) + verified_width;
+        let room = BADGE + behind;
         let frame_time = format!("{:.6} s", frame.time);
-        item(ui, "t", &frame_time, 92.0, BADGE, "Model time");
+        item(ui, "t", &frame_time, 92.0, room, "Model time");
         let help = "Number of the Δt looked at, and how far it is open";
-        item(ui, "Δt", &step_text(frame), 82.0, BADGE, help);
+        item(ui, "Δt", &step_text(frame), 82.0, room, help);
         if frame.method != Method::Exact {
-            item(ui, "method", frame.method.name(), 40.0, BADGE, frame.method.meaning());
+            item(ui, "method", frame.method.name(), 40.0, room, frame.method.meaning());
         }
-        let help = "Event of this Δt looked at, and how many it has; … while it is not finished";
-        item(ui, "event", &event_text(frame), 62.0, BADGE, help);
-        item(ui, "in all", &numbers::count(frame.event_count), 46.0, BADGE, "Events since the start");
-        item(ui, "bodies", &body_text(frame), 56.0, BADGE, "Moving + static bodies in the simulation");
+        let help = "Event of this Δt looked at, and of how many, where that is known";
+        item(ui, "event", &event_text(frame), 62.0, room, help);
+        item(ui, "in all", &numbers::count(frame.event_count), 46.0, room, "Events since the start");
+        item(ui, "bodies", &body_text(frame), 56.0, room, "Moving + static bodies in the simulation");
         let per_s = numbers::significant(frame.events_per_s, 3);
-        item(ui, "events/s", &per_s, 48.0, BADGE, "Events per second of computing, smoothed");
-        let behind = if frame.stepped.is_some() { STEPPED } else { 0.0 };
+        item(ui, "events/s", &per_s, 48.0, room, "Events per second of computing, smoothed");
         badge::show(ui, context, behind);
-        stepped(ui, context);
-        outside(ui, context);
+        let whole = width_of(ui, &notes, |note| &note.long) + verified_width + STEP_AND_FRAME;
+        let is_long = ui.available_width() >= whole;
+        for note in notes {
+            let text = if is_long { &note.long } else { &note.short };
+            let response = ui.label(RichText::new(text).small().color(note.color));
+            response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &note.long));
+            response.on_hover_text(format!("{}\n{}", note.long, note.help));
+        }
         verified(ui, context);
         let step = numbers::duration(frame.step_wall_s);
         item(ui, "step", &step, 58.0, 0.0, "Computing time of the last Δt");
@@ -46,31 +56,53 @@ pub fn show(ui: &mut Ui, context: &AppContext<'_>, pace: &Pace) {
     });
 }
 
+/// Something to be known of bodies, in full and for where there is little room.
+struct Note {
+    long: String,
+    short: String,
+    color: egui::Color32,
+    help: String,
+}
+
+/// What the notes take with the space behind each, points.
+fn width_of(ui: &Ui, notes: &[Note], text: impl Fn(&Note) -> &String) -> f32 {
+    notes.iter().map(|note| small_width(ui, text(note))).sum()
+}
+
+/// What a small text takes with the space behind it, points.
+fn small_width(ui: &Ui, text: &str) -> f32 {
+    let font = egui::TextStyle::Small.resolve(ui.style());
+    let color = ui.visuals().text_color();
+    ui.fonts_mut(|fonts| fonts.layout_no_wrap(text.to_owned(), font, color).size().x) + SPACING
+}
+
 /// How many bodies are stepped, while there are any.
-fn stepped(ui: &mut Ui, context: &AppContext<'_>) {
-    let Some(stepped) = context.session.frame().stepped else { return };
+fn stepped(context: &AppContext<'_>) -> Option<Note> {
+    let stepped = context.session.frame().stepped?;
     let (count, since) = (stepped.count, numbers::significant(stepped.since, 3));
     let count_text = numbers::count(count as u64);
-    let long = format!("{count_text} {} stepped since {since} s", bodies_word(count));
-    let text = if ui.available_width() < STEPPED { format!("{count_text} stepped") } else { long };
-    let help = format!(
-        "Bodies that touch too often for single events go on in steps of {}, marked by diamonds in the views",
-        numbers::duration(stepped.step)
-    );
-    let color = color32(context.palette().stepped);
-    ui.label(RichText::new(text).small().color(color)).on_hover_text(help);
+    Some(Note {
+        long: format!("{count_text} {} stepped since {since} s", bodies_word(count)),
+        short: format!("{count_text} stepped"),
+        color: color32(context.palette().stepped),
+        help: format!(
+            "Bodies that touch too often for single events go on in steps of {}, marked by diamonds in the views",
+            numbers::duration(stepped.step)
+        ),
+    })
 }
 
 /// How many bodies have left the map, while there are any: where they are nobody may be looking.
-fn outside(ui: &mut Ui, context: &AppContext<'_>) {
-    let (Some(scene), frame) = (context.session.scene(), context.session.frame()) else { return };
-    let is_outside = |at: glam::DVec3| at.cmplt(glam::DVec3::ZERO).any() || at.cmpgt(scene.map.size).any();
-    let count = frame.bodies.iter().filter(|body| is_outside(body.position)).count();
-    if count > 0 {
-        let text = format!("{} outside the map", numbers::count(count as u64));
-        let help = "Bodies whose centres have left the map. It holds nobody: only walls do.";
-        ui.label(RichText::new(text).small().color(tones(ui).warning)).on_hover_text(help);
-    }
+fn outside(ui: &Ui, context: &AppContext<'_>) -> Option<Note> {
+    let (scene, frame) = (context.session.scene()?, context.session.frame());
+    let count = frame.bodies.iter().filter(|body| !scene.map.contains(body.position)).count();
+    let count_text = numbers::count(count as u64);
+    (count > 0).then(|| Note {
+        long: format!("{count_text} outside the map"),
+        short: format!("{count_text} outside"),
+        color: tones(ui).warning,
+        help: "Bodies whose centres have left the map. It holds nobody: only walls do.".into(),
+    })
 }
 
 /// Whether the run of a recording that was opened is the recorded one.
@@ -97,8 +129,14 @@ fn verified(ui: &mut Ui, context: &AppContext<'_>) {
     }
 }
 
-/// What all words about stepped bodies take, points.
-const STEPPED: f32 = 190.0;
+/// Between two things, points.
+const SPACING: f32 = 5.0;
+
+/// What the comparison with a recording takes at most, points.
+const VERIFIED: f32 = 150.0;
+
+/// What the times of the last Δt and of drawing take, points.
+const STEP_AND_FRAME: f32 = 200.0;
 
 fn bodies_word(count: usize) -> &'static str {
     if count == 1 { "body" } else { "bodies" }
@@ -159,8 +197,16 @@ fn step_text(frame: &Frame) -> String {
 }
 
 fn event_text(frame: &Frame) -> String {
+    let (before, ledger) = (frame.event_count - frame.events.len() as u64, &frame.ledger);
     let count = numbers::count(frame.events.len() as u64);
-    if frame.open_step.is_some() { format!("{count} of …") } else { format!("{count} of {count}") }
+    match frame.open_step {
+        None => format!("{count} of {count}"),
+        Some((_, end)) if end < frame.recorded.to => {
+            let last = ledger.first() + ledger.count_until(end) as u64 - 1;
+            format!("{count} of {}", numbers::count(last.saturating_sub(before)))
+        }
+        Some(_) => count,
+    }
 }
 
 fn body_text(frame: &Frame) -> String {

@@ -8,7 +8,7 @@ use super::text::{TextFields, user_id};
 use crate::editor::{Action, BODY_FIELDS, Field, Shared, shared};
 use crate::gui::colors::tones;
 use crate::gui::context::{AppContext, Shown};
-use crate::gui::numbers::significant;
+use crate::gui::numbers::{fitting, significant};
 use crate::gui::widgets::mono;
 use crate::record::BodyFrame;
 use crate::scene::{Body, BodyChange, Edit, NodeKey, Shape};
@@ -16,8 +16,9 @@ use crate::scene::{Body, BodyChange, Edit, NodeKey, Shape};
 /// Width of the names of rows, points: the longest of them with its axis.
 const LABEL_WIDTH: f32 = 110.0;
 
-/// Digits of what a body does now, so that they fit beside what it starts with; the tooltip has all.
+/// Digits and characters of what a body does now, so that it fits beside what it starts with; the tooltip has all.
 const NOW_DIGITS: usize = 7;
+const NOW_LONGEST: usize = 9;
 
 pub fn kind(body: &Body) -> &'static str {
     match (&body.shape, body.is_dynamic()) {
@@ -184,7 +185,9 @@ fn rows(
         match field.now.zip(now).and_then(|(get, frame)| get(frame)) {
             Some(vector) => {
                 let value = vector.to_array().get(axis).copied().unwrap_or(0.0);
-                drop(ui.label(mono(significant(value, NOW_DIGITS))).on_hover_text(value.to_string()));
+                drop(
+                    ui.label(mono(fitting(value, NOW_DIGITS, NOW_LONGEST))).on_hover_text(value.to_string()),
+                );
             }
             None if angle => drop(ui.label(RichText::new(degrees(value)).color(tones(ui).weak))),
             None => drop(ui.label("")),
