@@ -29,6 +29,7 @@ pub enum Aspect {
     PointGravity,
     Drag,
     UserIds,
+    ForceIds,
     BodyNames,
     Groups,
     Colors,
@@ -116,9 +117,11 @@ pub(super) const ASPECTS: &[AspectInfo] = &[
     row(Aspect::Drag, "air drag", "air drags", |s| {
         forces(s, |force| matches!(force.kind, ForceKind::Drag { .. }))
     }),
-    row(Aspect::UserIds, "UserID", "UserIDs", |s| {
-        let ids = s.scene.bodies.iter().map(|_| String::new());
-        ids.chain(s.scene.forces.iter().map(|_| String::new())).collect()
+    row(Aspect::UserIds, "UserID of a body", "UserIDs of bodies", |s| {
+        s.scene.bodies.iter().map(|body| body.label.clone()).collect()
+    }),
+    row(Aspect::ForceIds, "UserID of a force", "UserIDs of forces", |s| {
+        s.scene.forces.iter().map(|force| force.label.clone()).collect()
     }),
     row(Aspect::BodyNames, "name of a body", "names of bodies", |s| bodies(s, |body| body.name.is_some())),
     row(Aspect::Groups, "body in a group", "bodies in groups", |s| bodies(s, |body| body.group.is_some())),

@@ -156,12 +156,14 @@ fn fate(source: &Source<'_>, aspect: Aspect) -> Fate {
         | Aspect::Locked
         | Aspect::Materials => kept(""),
         Aspect::Motion => kept("at the frames"),
-        Aspect::UserIds => kept("of bodies"),
+        Aspect::UserIds => kept(""),
         Aspect::Unbuilt => dropped("the shape's name is kept, its sizes are not"),
         Aspect::Frictionless => not_needed("a table has no laws"),
-        Aspect::UniformGravity | Aspect::PointGravity | Aspect::Drag | Aspect::ForceLooks => {
-            dropped("the table has bodies only")
-        }
+        Aspect::UniformGravity
+        | Aspect::PointGravity
+        | Aspect::Drag
+        | Aspect::ForceLooks
+        | Aspect::ForceIds => dropped("the table has bodies only"),
         Aspect::Map => not_needed("a search grid, on which no result depends"),
         Aspect::TimeSpeed | Aspect::Solver | Aspect::Viewpoints => dropped("the table has bodies only"),
         Aspect::Comments | Aspect::Unknown => no_meaning(),

@@ -11,7 +11,7 @@ use super::mesh::{self, Mesh};
 use super::motion::Animation;
 use super::names;
 use super::range;
-use super::report::{Fate, Report, approximated, dropped, kept, no_meaning, not_needed};
+use super::report::{Fate, NO_FORCE_IDS, Report, approximated, dropped, kept, no_meaning, not_needed};
 use crate::scene::{Body, ForceKind, Motion, Roughness, Shape, Viewpoint, rotation_matrix};
 
 pub(super) const FORMAT: Format = Format {
@@ -344,7 +344,8 @@ fn fate(aspect: Aspect) -> Fate {
         | Aspect::PointGravity
         | Aspect::Drag => as_extras(),
         Aspect::Frictionless => dropped("glTF is not physics"),
-        Aspect::UserIds => kept("of bodies, in `extras`; forces have none"),
+        Aspect::UserIds => kept("in `extras`"),
+        Aspect::ForceIds => not_needed(NO_FORCE_IDS),
         Aspect::BodyNames => kept("made unique where they repeat"),
         Aspect::Groups | Aspect::Materials => kept("in `extras`"),
         Aspect::Colors => kept("as the base colour, made linear"),

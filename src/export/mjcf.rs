@@ -12,7 +12,7 @@ use super::format::{Exported, Format, Source};
 use super::names;
 use super::pairs::{Pairs, Surface};
 use super::range;
-use super::report::{Fate, Report, approximated, dropped, kept, no_meaning, not_needed};
+use super::report::{Fate, NO_FORCE_IDS, Report, approximated, dropped, kept, no_meaning, not_needed};
 use super::slab::Slabs;
 use super::xml::{Xml, number, numbers, rgba, vector};
 use crate::scene::{Body, Motion, Shape};
@@ -258,7 +258,8 @@ impl Writer<'_> {
             Aspect::UniformGravity => kept("as their sum, in `option`"),
             Aspect::PointGravity => dropped("MuJoCo has uniform gravity only"),
             Aspect::Drag => kept("as the density of the medium, with a blunt drag coefficient of 0.25"),
-            Aspect::UserIds => kept("of bodies, as their `user` number; forces have none"),
+            Aspect::UserIds => kept("as their `user` number"),
+            Aspect::ForceIds => not_needed(NO_FORCE_IDS),
             Aspect::BodyNames => kept("made unique where they repeat"),
             Aspect::Groups => dropped("its groups are numbers"),
             Aspect::Colors => kept(""),

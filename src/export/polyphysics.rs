@@ -61,6 +61,7 @@ fn fate(aspect: Aspect) -> Fate {
         | Aspect::UniformGravity
         | Aspect::PointGravity
         | Aspect::UserIds
+        | Aspect::ForceIds
         | Aspect::ForceLooks
         | Aspect::Map
         | Aspect::TimeSpeed

@@ -52,6 +52,10 @@ pub(super) fn dropped(how: impl Into<String>) -> Fate {
     (Verdict::Dropped, how.into())
 }
 
+/// Of formats that write what forces do, or nothing of them: the lines of the forces say which.
+pub(super) const NO_FORCE_IDS: &str =
+    "tells this program's forces apart; the format has no names for its own";
+
 /// Of what is in the file without a meaning for the scene.
 pub(super) fn no_meaning() -> Fate {
     dropped("no part of the scene's meaning; only PolyPhysicsXml has a place for it")

@@ -9,7 +9,7 @@ use super::error::ExportError;
 use super::format::{Exported, Format, Source};
 use super::names;
 use super::range;
-use super::report::{Fate, Report, approximated, dropped, kept, no_meaning, not_needed};
+use super::report::{Fate, NO_FORCE_IDS, Report, approximated, dropped, kept, no_meaning, not_needed};
 use super::slab::Slabs;
 use super::xml::{Xml, number, numbers, rgba, vector};
 use crate::scene::{Body, Motion, Shape};
@@ -248,6 +248,7 @@ impl Writer<'_> {
             Aspect::PointGravity => dropped("a world has one uniform gravity"),
             Aspect::Drag => dropped("there is no drag of air without a plugin"),
             Aspect::UserIds => dropped("models go by name; without one it is the UserID"),
+            Aspect::ForceIds => not_needed(NO_FORCE_IDS),
             Aspect::BodyNames => kept("made unique where they repeat"),
             Aspect::Groups => dropped("each body is a model of the world"),
             Aspect::Colors => kept(""),

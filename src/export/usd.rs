@@ -11,7 +11,7 @@ use super::format::{Exported, Format, Source};
 use super::motion::{Animation, Frames, Key};
 use super::names;
 use super::range;
-use super::report::{Fate, Report, approximated, dropped, kept, no_meaning, not_needed};
+use super::report::{Fate, NO_FORCE_IDS, Report, approximated, dropped, kept, no_meaning, not_needed};
 use super::xml::number;
 use crate::scene::{Body, Motion, Shape, escaped, rotation_matrix};
 
@@ -279,7 +279,8 @@ fn fate(aspect: Aspect) -> Fate {
         Aspect::UniformGravity => kept("as their sum"),
         Aspect::PointGravity => dropped("a PhysicsScene has one uniform gravity"),
         Aspect::Drag => dropped("UsdPhysics has no drag of air"),
-        Aspect::UserIds => kept("of bodies, in customData; forces have none"),
+        Aspect::UserIds => kept("in customData"),
+        Aspect::ForceIds => not_needed(NO_FORCE_IDS),
         Aspect::BodyNames => kept("as displayName; names of prims are letters and digits"),
         Aspect::Groups | Aspect::Materials => kept("in customData"),
         Aspect::Colors => kept("as displayColor"),

@@ -190,7 +190,7 @@ fn nothing_is_lost_silently() {
         let Report { lines } = format.export(&document).expect("an export").report;
         let aspects: Vec<_> = lines.iter().map(|line| format!("{:?}", line.aspect)).collect();
         let different: BTreeSet<_> = aspects.iter().cloned().collect();
-        assert_eq!(different.len(), 23, "{}: {aspects:?}", format.id);
+        assert_eq!(different.len(), 24, "{}: {aspects:?}", format.id);
         assert!(lines.is_sorted_by_key(|line| line.verdict), "{}: losses last", format.id);
         for line in &lines {
             assert!(line.verdict == Verdict::Kept || !line.how.is_empty(), "{line}: no reason");
