@@ -64,7 +64,9 @@ fn overlaps(scene: &Scene) -> Vec<Trouble> {
     let mut pairs = Vec::new();
     for_each_near(bodies, 0.0, |a, b| {
         if let Some(depth) = overlap(scene, &bodies[a], &bodies[b]) {
-            pairs.push((a, b, depth));
+            // The moving one first, then by UserID: as the simulation, its warnings and its events name them.
+            let rank = |nth: usize| (!bodies[nth].is_dynamic(), bodies[nth].id, nth);
+            pairs.push(if rank(a) <= rank(b) { (a, b, depth) } else { (b, a, depth) });
         }
         pairs.len() < MOST_PAIRS
     });

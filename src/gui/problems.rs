@@ -83,8 +83,12 @@ impl Problems {
                     cell(&mut header, RichText::new(title).small().weak(), "");
                 }
             })
-            .body(|body| {
-                body.rows(ROW_HEIGHT, self.list.len(), |mut row| {
+            .body(|mut body| {
+                let width = |nth: usize| body.widths().get(nth).copied().unwrap_or(text_width);
+                let widths = [width(TEXT), width(TO_DO)];
+                let heights: Vec<f32> =
+                    self.list.iter().map(|problem| height(body.ui_mut(), problem, widths)).collect();
+                body.heterogeneous_rows(heights.into_iter(), |mut row| {
                     let Some(problem) = self.list.get(row.index()) else { return };
                     row.set_selected(
                         problem.key.is_some_and(|key| context.session.selection().contains(key)),
@@ -92,17 +96,40 @@ impl Problems {
                     row.col(|ui| drop(severity_icon(ui, problem.severity == Severity::Error)));
                     cell(&mut row, mono(place(problem)), &problem.path);
                     object(&mut row, context, problem);
-                    cell(&mut row, RichText::new(&problem.message), &problem.message);
+                    row.col(|ui| wrapped(ui, RichText::new(&problem.message), &problem.message));
                     row.col(|ui| {
-                        ui.horizontal(|ui| {
+                        ui.horizontal_top(|ui| {
                             fix_button(ui, context, problem);
-                            ui.label(RichText::new(&problem.hint).weak()).on_hover_text(&problem.hint);
+                            wrapped(ui, RichText::new(&problem.hint).weak(), &problem.hint);
                         });
                     });
                     click(&row.response(), context, problem);
                 });
             });
     }
+}
+
+/// Columns of what is wrong and of what to do.
+const TEXT: usize = 3;
+const TO_DO: usize = 4;
+
+/// What a row needs for all lines of its texts, in columns of these widths, points.
+fn height(ui: &mut Ui, problem: &Problem, [text, to_do]: [f32; 2]) -> f32 {
+    let font = egui::TextStyle::Body.resolve(ui.style());
+    let color = ui.visuals().text_color();
+    let (padding, gap) = (2.0 * ui.spacing().button_padding.x, ui.spacing().item_spacing.x);
+    ui.fonts_mut(|fonts| {
+        let mut size =
+            |text: &str, width: f32| fonts.layout(text.to_owned(), font.clone(), color, width).size();
+        let button = problem.fix.map_or(0.0, |fix| size(fix.label(), f32::INFINITY).x + padding + gap);
+        let lines = size(&problem.message, text).y.max(size(&problem.hint, to_do - button).y);
+        (lines + 4.0).max(ROW_HEIGHT)
+    })
+}
+
+/// A text in as many lines as it needs; the tooltip has it where even they have no room.
+fn wrapped(ui: &mut Ui, text: RichText, help: &str) {
+    ui.add(egui::Label::new(text).wrap()).on_hover_text(help);
 }
 
 fn place(problem: &Problem) -> String {

@@ -3,6 +3,7 @@
 use glam::{DVec3, dvec3};
 use polyscene::design::{Repair, Repaired, TroubleKind, repair, repair_all, troubles};
 use polyscene::scene::{Body, Document, Edit, Motion, NumberStyle, Scene, Shape};
+use polyscene::sim::Simulation;
 
 fn ball(id: i64, at: DVec3, radius: f64, mass: f64) -> Edit {
     let motion = Motion::Dynamic { mass, velocity: DVec3::ZERO };
@@ -74,6 +75,14 @@ fn two_that_overlap_part_along_the_shortest_way() {
 fn a_ball_in_the_floor_comes_out_on_its_side() {
     for (y, expected) in [(0.25, 0.5), (-0.25, -0.5)] {
         let document = made(vec![floor(1, 0.0), ball(2, dvec3(5.0, y, 5.0), 0.5, 1.0)]);
+        // Symptom: two lists of problems named the two in two orders.
+        let trouble = &troubles(scene(&document))[0];
+        let simulation = Simulation::new(scene(&document)).unwrap();
+        let warning = &simulation.start_warnings()[0].message;
+        assert!(
+            trouble.message.starts_with("2 and 1 overlap") && warning.contains("2 and 1 overlap"),
+            "{warning}"
+        );
         let parted = repaired(&document, Repair::PushAllApart);
         assert_eq!(scene(&parted).bodies[1].position.y, expected);
         assert_eq!(scene(&parted).bodies[0], scene(&document).bodies[0]);

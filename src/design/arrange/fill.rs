@@ -50,9 +50,9 @@ pub const FILL: Tool = Tool {
             default: |given| of_map(given, 0.04),
         },
         Input {
-            label: "Mass",
+            label: "Mass of a largest ball",
             unit: "kg",
-            help: "Of the largest; others by their volume",
+            help: "Of a ball with the largest radius; smaller ones have less, by their volume",
             kind: LENGTH,
             default: |_| 1.0,
         },
@@ -108,7 +108,7 @@ pub const FILL: Tool = Tool {
                 &Ball {
                     at,
                     radius,
-                    mass: values.number("Mass") * (share * share * share),
+                    mass: values.number("Mass of a largest ball") * (share * share * share),
                     velocity: direction(&mut random) * values.number("Speed"),
                     bounce: values.number("Ball bounce"),
                 },
