@@ -19,14 +19,14 @@ pub const VIEWS: [ViewPreset; 4] = [
         id: "perspective",
         label: "Perspective",
         axis: None,
-        overlays: &["map", "contacts", "velocities", "turning", "states", "distances"],
+        overlays: &["map", "contacts", "impact", "velocities", "turning", "states", "distances"],
     },
     ViewPreset { id: "top", label: "Top", axis: Some(AxisView::Top), overlays: ORTHO },
     ViewPreset { id: "front", label: "Front", axis: Some(AxisView::Front), overlays: ORTHO },
     ViewPreset { id: "right", label: "Right", axis: Some(AxisView::Right), overlays: ORTHO },
 ];
 
-const ORTHO: &[&str] = &["map", "grid", "contacts", "turning", "states", "distances"];
+const ORTHO: &[&str] = &["map", "grid", "contacts", "impact", "turning", "states", "distances"];
 
 impl ViewPreset {
     /// This view of the whole of `bounds`.

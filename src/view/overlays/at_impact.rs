@@ -14,9 +14,8 @@ pub(in crate::view) fn add(stage: &Stage<'_>, list: &mut DrawList) {
     };
     // What came ends where the body is, so that it is seen to come.
     let scale = scaled_arrows::scale(stage, impact.iter().flat_map(|body| [body.before, body.after]));
-    let before =
-        Quantity { name: "incoming velocity", unit: "m/s", color: stage.palette.velocity.with_alpha(130) };
-    let after = Quantity { name: "outgoing velocity", unit: "m/s", color: stage.palette.velocity };
+    let after = Quantity { name: "event velocity", unit: "m/s", color: stage.palette.velocity };
+    let before = Quantity { color: stage.palette.velocity.with_alpha(130), ..after };
     scaled_arrows::add_ending(stage, list, &before, &vectors(|body| body.before), scale);
     scaled_arrows::add_at(stage, list, &after, &vectors(|body| body.after), scale);
     for body in impact.iter() {

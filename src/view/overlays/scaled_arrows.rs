@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::scene::{Body, Motion, Scene};
+use crate::scene::{Body, Map, Motion, Scene};
 use crate::view::format::round_down_125;
 use crate::view::overlays::crowd::share_of_size;
 use crate::view::stage::Stage;
@@ -37,23 +37,43 @@ fn metres_per_unit((largest, count): (f64, usize), camera: &Camera, viewport: Vi
 /// The scale of a view's velocity arrows at the start of a scene. Where nothing moves, it is such that a body
 /// as fast as the longest arrow crosses the map in four seconds.
 pub fn velocity_scale(scene: &Scene, camera: &Camera, viewport: Viewport) -> f64 {
-    let speed = |body: &Body| match body.motion {
-        Motion::Dynamic { velocity, .. } if !body.hidden => Some(velocity.length()),
+    let velocity = |body: &Body| match body.motion {
+        Motion::Dynamic { velocity, .. } if !body.hidden => Some((body.position, velocity)),
         _ => None,
     };
-    let speeds = scene.bodies.iter().filter_map(speed);
-    let (largest, count) = speeds.fold((0.0, 0), |(largest, count), speed| (speed.max(largest), count + 1));
+    let (largest, count) = largest(&scene.map, scene.bodies.iter().filter_map(velocity));
     let usual = 0.25 * scene.map.size.max_element();
     let largest = if largest.is_finite() && largest > 0.0 { largest } else { usual };
     metres_per_unit((largest, count), camera, viewport)
+}
+
+/// The largest length of so many vectors at their places. What has left the map does not decide how long the arrows of all others
+/// are, unless nothing else moves: a ball that falls for ever is soon the fastest by far.
+fn largest(map: &Map, vectors: impl Iterator<Item = (DVec3, DVec3)>) -> (f64, usize) {
+    let (mut inside, mut all, mut count) = (0.0_f64, 0.0_f64, 0);
+    for (place, vector) in vectors {
+        let length = vector.length();
+        if map.contains(place) {
+            inside = inside.max(length);
+        }
+        (all, count) = (all.max(length), count + 1);
+    }
+    (if inside > 0.0 { inside } else { all }, count)
+}
+
+/// How long one unit is drawn, m, for vectors at their places; `None` without any.
+pub(super) fn scale_at(stage: &Stage<'_>, vectors: &[(DVec3, DVec3)]) -> Option<f64> {
+    scale_for(stage, largest(&stage.input.scene.map, vectors.iter().copied()))
 }
 
 /// How long one unit of a quantity is drawn, m, so that the largest of some vectors is as long as an arrow can be; `None`
 /// without any.
 pub(super) fn scale(stage: &Stage<'_>, vectors: impl Iterator<Item = DVec3>) -> Option<f64> {
     let lengths = vectors.map(DVec3::length);
-    let (largest, count) =
-        lengths.fold((0.0, 0), |(largest, count), length| (length.max(largest), count + 1));
+    scale_for(stage, lengths.fold((0.0, 0), |(largest, count), length| (length.max(largest), count + 1)))
+}
+
+fn scale_for(stage: &Stage<'_>, (largest, count): (f64, usize)) -> Option<f64> {
     let is_drawable = largest.is_finite() && largest > 0.0;
     is_drawable.then(|| metres_per_unit((largest, count), &stage.camera, stage.input.viewport))
 }
@@ -73,9 +93,14 @@ pub(super) fn add_at(
     scale: Option<f64>,
 ) {
     add_arrows(stage, list, quantity, vectors, (scale, 0.0));
+    if let Some(metres_per_unit) = scale {
+        let Quantity { name, unit, color } = quantity;
+        list.legend
+            .push((*color, format!("{name} arrows: 1 m = {} {unit}", number(1.0 / metres_per_unit, 9))));
+    }
 }
 
-/// As [`add_at`], with arrows that end at their places.
+/// As [`add_at`], with arrows that end at their places, and without a line in the legend: for those beside others of one scale.
 pub(super) fn add_ending(
     stage: &Stage<'_>,
     list: &mut DrawList,
@@ -104,9 +129,8 @@ fn add_arrows(
         let (from, to) = (list.local(start), list.local(start + arrow));
         list.arrows.push(Arrow { from, to, color: quantity.color, width: width_of(share) });
     }
-    let Quantity { name, unit, color } = quantity;
-    list.legend.push((*color, format!("{name} arrows: 1 m = {} {unit}", number(1.0 / metres_per_unit, 9))));
     if vectors.len() > MOST {
+        let name = quantity.name;
         list.notes.push(format!("{name}: the first {MOST} of {} arrows.", vectors.len()));
     }
 }

@@ -14,5 +14,6 @@ pub(in crate::view) fn add(stage: &Stage<'_>, list: &mut DrawList) {
     let vectors: Vec<_> =
         stage.bodies.iter().filter_map(|posed| Some((posed.position, velocity(posed)?))).collect();
     let quantity = Quantity { name: "velocity", unit: "m/s", color: stage.palette.velocity };
-    scaled_arrows::add(stage, list, &quantity, &vectors);
+    let scale = scaled_arrows::scale_at(stage, &vectors);
+    scaled_arrows::add_at(stage, list, &quantity, &vectors, scale);
 }
