@@ -59,6 +59,7 @@ mod contact;
 mod open_step;
 mod pair;
 mod place;
+mod push;
 mod queue;
 mod segment;
 mod state;
