@@ -25,7 +25,8 @@ use super::turn::Hold;
 pub(super) fn advance(model: &Model, state: &mut State) -> Result<bool, Fault> {
     let step_at = dense::next_step(state);
     let Some(next) = pop(state, state.until.min(step_at)) else {
-        if step_at > state.until {
+        // Where nothing is stepped, that is never: also of a run without an end.
+        if step_at > state.until || step_at.is_infinite() {
             return Ok(false);
         }
         state.reached = step_at;

@@ -98,12 +98,14 @@ impl Simulation {
         self.state.now
     }
 
-    /// Sets the time up to which [`Self::next_event`] goes. A time before now, or none at all, counts as now.
+    /// Sets the time up to which [`Self::next_event`] goes. A time before now, or none at all, counts as now; ∞ goes on for
+    /// as long as anything is predicted, and now is then the last of what was.
     ///
-    /// For a method that steps by Δt this is the end of the next one. A Δt that is open keeps its end: one
-    /// can stop inside it and go on. An edit ends it.
+    /// For a method that steps by Δt this is the end of the next one, and ∞ counts as now. A Δt that is open keeps its end:
+    /// one can stop inside it and go on. An edit ends it.
     pub fn begin(&mut self, until: f64) {
-        self.state.until = if until > self.state.now { until } else { self.state.now };
+        let is_ahead = until > self.state.now && (until.is_finite() || self.model.method == Method::Exact);
+        self.state.until = if is_ahead { until } else { self.state.now };
         drive::plan(&self.model, &mut self.state);
     }
 
@@ -139,7 +141,8 @@ impl Simulation {
             match advanced {
                 Ok(true) => {}
                 Ok(false) => {
-                    self.state.now = self.state.until;
+                    let State { now, until, reached, .. } = &mut self.state;
+                    *now = if until.is_finite() { *until } else { now.max(*reached) };
                     return Ok(Progress::Done);
                 }
                 Err(fault) => {

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, dvec3};
 use polyscene::scene::Scene;
-use polyscene::sim::{ContactState, EventKind, Simulation};
+use polyscene::sim::{ContactState, EventKind, Method, Simulation};
 use polyscene::study::closed_form::Bounces;
 
 use crate::common::build::{Build, Shaped, ball, empty, plate, static_ball};
@@ -191,6 +191,26 @@ fn steps_may_be_huge_tiny_or_nothing() {
     let lying = state_of(&sim, 2);
     assert_eq!((lying.contact, lying.velocity), (ContactState::Rest, DVec3::ZERO));
     assert!((lying.position.y - 0.5).abs() <= 1e-9, "{lying:?}");
+}
+
+#[test]
+fn a_run_without_an_end_ends_when_nothing_is_left_to_happen() {
+    let lossy =
+        empty().gravity(-9.8).floor(1, 3.0).body(ball(2, dvec3(5.0, 5.0, 5.0), DVec3::ZERO).bounce(0.5));
+    for method in [Method::Exact, Method::Thesis, Method::Fixed] {
+        let mut sim = Simulation::with_method(&lossy, method).expect("a sound scene");
+        sim.begin(f64::INFINITY);
+        let mut rests = false;
+        sim.finish(&mut |_, event| rests |= event.kind == EventKind::Rest).expect("a run without faults");
+        let is_exact = method == Method::Exact;
+        assert_eq!(rests, is_exact, "{method:?}: an endless Δt is none");
+        assert_eq!(sim.time() > 0.0, is_exact, "{method:?}");
+        let settled = sim.time();
+        assert!(settled.is_finite() && sim.next_event() == Ok(None), "{method:?}: now is {settled}");
+        sim.begin(settled + 1.0);
+        sim.finish(&mut |_, event| assert!(!is_exact, "{event:?}")).expect("a run without faults");
+        assert_eq!(sim.time(), settled + 1.0, "{method:?} goes on");
+    }
 }
 
 #[test]
