@@ -8,7 +8,7 @@ use glam::DVec3;
 use super::account::angular;
 use super::body::BodyId;
 use super::event::{Event, EventKind};
-use super::force::Law;
+use super::force::{Law, Subject};
 use super::ledger::record;
 use super::model::Model;
 use super::place::Place;
@@ -37,12 +37,11 @@ impl Attractor {
         axis * (1.0 + (1.0 - round).max(0.0).sqrt())
     }
 
-    /// Whether its pull on a body exceeds all other applied forces even at this distance, m.
-    fn rules(&self, model: &Model, body: u32, x: DVec3, distance: f64) -> bool {
+    /// Whether its pull on a body exceeds all other applied forces but drag even at this distance, m.
+    fn rules(&self, subject: &Subject<'_>, model: &Model, distance: f64) -> bool {
         // In the sum of all, beside its own pull, the others would be rounding.
-        let subject = model.subject(body, 0.0, Place::exact(x), DVec3::ZERO);
-        let others = model.forces.iter().filter(|force| !self.is(&force.law));
-        let load: DVec3 = others.map(|force| force.law.force(&subject)).sum();
+        let others = model.forces.iter().filter(|force| !self.is(&force.law) && !force.law.dissipates());
+        let load: DVec3 = others.map(|force| force.law.force(subject)).sum();
         load.length() * distance * distance < self.intensity * subject.mass
     }
 
@@ -51,11 +50,12 @@ impl Attractor {
     }
 
     /// Whether a body at the core can't leave it by itself.
-    pub fn captures(&self, model: &Model, state: &State, body: u32, (x, v): (DVec3, DVec3)) -> bool {
+    pub fn captures(&self, model: &Model, state: &State, body: u32, time: f64) -> bool {
+        let (x, v) = (state.position(body, time), state.velocity(body, time));
         let disturbed = is_disturbed(model, state, body);
         let reach = if disturbed { reach(model, body) } else { BOUND_ALONE * model.params.core_radius };
         let apoapsis = self.apoapsis(x, v);
-        apoapsis <= reach && self.rules(model, body, x, apoapsis)
+        apoapsis <= reach && self.rules(&model.subject(body, time, Place::exact(x), v), model, apoapsis)
     }
 }
 
@@ -87,10 +87,12 @@ fn attractor_at(model: &Model, body: u32, x: DVec3) -> Option<Attractor> {
 
 /// Whether a body that something disturbs is bound to an attractor that near that it is captured, wherever it is on its
 /// orbit.
-pub(super) fn is_caught(model: &Model, state: &State, body: u32, (x, v): (DVec3, DVec3)) -> bool {
+pub(super) fn is_caught(model: &Model, state: &State, body: u32, time: f64) -> bool {
+    let (x, v) = (state.position(body, time), state.velocity(body, time));
     let is_bound = |attractor: Attractor| {
         let apoapsis = attractor.apoapsis(x, v);
-        apoapsis <= BOUND_OF_RADIUS * model.radius(body) && attractor.rules(model, body, x, apoapsis)
+        apoapsis <= BOUND_OF_RADIUS * model.radius(body)
+            && attractor.rules(&model.subject(body, time, Place::exact(x), v), model, apoapsis)
     };
     !model.is_ballistic()
         && is_disturbed(model, state, body)

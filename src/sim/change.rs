@@ -106,7 +106,8 @@ fn plan_anew(model: &mut Model, state: &mut State) {
     model.plan.spin |= !state.turns.is_empty();
     state.make_turns(model);
     if model.plan.stepped_groups || state.dense.is_some() {
-        set_step(model, |body| (state.position(body, state.now), state.velocity(body, state.now)));
+        let time = state.now;
+        set_step(model, time, |body| (state.position(body, time), state.velocity(body, time)));
     }
 }
 

@@ -35,7 +35,7 @@ pub(super) fn pass_core(model: &Model, state: &mut State, next: &Predicted) -> R
     if speed <= 0.0 {
         return Ok(());
     }
-    if (Attractor { center, intensity }).captures(model, state, body, (x, v)) {
+    if (Attractor { center, intensity }).captures(model, state, body, time) {
         return capture(model, state, body, time);
     }
     let turned = if turn_back(model, state, body, time) { -v } else { v - 2.0 * speed * inward };

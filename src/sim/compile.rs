@@ -8,7 +8,7 @@ use super::body::{Bodies, Body, Identity, Origin, Rare};
 use super::dense::set_step;
 use super::force::ForceEntry;
 use super::method::Method;
-use super::model::Model;
+use super::model::{Model, StepSource};
 use super::plan::plan_of;
 use super::report::Plan;
 use super::shape::{self, Plate, Sphere};
@@ -54,12 +54,13 @@ pub(super) fn compile(scene: &Scene, method: Method) -> Result<(Model, Vec<Origi
         grid,
         static_tiles,
         dense_step: 0.0,
+        step_source: StepSource::Nothing,
         plan: Plan::default(),
         start_warnings: Vec::new(),
     };
     model.plan = plan_of(&model);
     if model.plan.stepped_groups {
-        set_step(&mut model, |body| {
+        set_step(&mut model, 0.0, |body| {
             let origin = &origins[body as usize];
             (origin.position, origin.velocity)
         });

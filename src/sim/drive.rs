@@ -1,5 +1,7 @@
 //! Goes through time as the method says: the one place where the methods part.
 
+use std::sync::Arc;
+
 use super::fault::Fault;
 use super::method::Method;
 use super::model::Model;
@@ -19,6 +21,13 @@ pub(super) fn advance(model: &Model, state: &mut State) -> Result<bool, Fault> {
     match model.method {
         Method::Exact => engine::advance(model, state),
         Method::Thesis | Method::Fixed => stepping::advance(model, state),
+    }
+}
+
+/// After an event: finds what only motion tells.
+pub(super) fn look(model: &mut Arc<Model>, state: &mut State) {
+    if model.method == Method::Exact {
+        engine::find_group_step(model, state);
     }
 }
 

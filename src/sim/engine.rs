@@ -1,5 +1,7 @@
 //! The step: one predicted event after the other. [`advance`] is its table of contents.
 
+use std::sync::Arc;
+
 use super::capture::{free_unheld, is_caught};
 use super::close_pass::{capture, pass_core};
 use super::dense::{self, Dense, Role};
@@ -85,6 +87,13 @@ pub(super) fn begin_all(model: &Model, state: &mut State) -> Result<(), Fault> {
     dense::wake_all(model, state, state.now)
 }
 
+/// Finds the step of groups where nothing told it before something happened.
+pub(super) fn find_group_step(model: &mut Arc<Model>, state: &mut State) {
+    if dense::find_step(model, state) {
+        prepare_groups(model, state);
+    }
+}
+
 /// Makes room for stepped groups where the scene can have them.
 fn prepare_groups(model: &Model, state: &mut State) {
     if model.dense_step > 0.0 && state.dense.is_none() {
@@ -102,8 +111,7 @@ fn step_groups(model: &Model, state: &mut State, time: f64) -> Result<(), Fault>
 
 /// The end of a segment: the next one goes on from there.
 fn go_on(model: &Model, state: &mut State, body: u32, time: f64) -> Result<(), Fault> {
-    let now = (state.position(body, time), state.velocity(body, time));
-    if !state.captured.contains(&body) && is_caught(model, state, body, now) {
+    if !state.captured.contains(&body) && is_caught(model, state, body, time) {
         return capture(model, state, body, time);
     }
     restart(model, state, time, &[from_now(state, body, time)])

@@ -10,6 +10,19 @@ use super::report::Plan;
 use super::tiles::{Grid, StaticTiles};
 use crate::scene::{Diagnostic, SimParams};
 
+/// What the step of groups was found from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum StepSource {
+    /// Nothing drives the bodies and none moves.
+    #[default]
+    Nothing,
+    /// Forces of the user's own alone, on bodies of which none moves yet.
+    ForcesAtRest,
+    Motion,
+    /// Forces, or what the scene asks for.
+    Forces,
+}
+
 /// Immutable while it runs; an edit makes a changed copy.
 #[derive(Clone, Debug)]
 pub(super) struct Model {
@@ -19,8 +32,9 @@ pub(super) struct Model {
     pub forces: Vec<ForceEntry>,
     pub grid: Grid,
     pub static_tiles: StaticTiles,
-    /// Step of stepped groups, s; 0 where the scene can have none.
+    /// Step of stepped groups, s; 0 where the scene can have none, and while nothing tells how long it may be.
     pub dense_step: f64,
+    pub step_source: StepSource,
     pub plan: Plan,
     pub start_warnings: Vec<Diagnostic>,
 }

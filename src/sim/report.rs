@@ -167,7 +167,7 @@ pub struct Plan {
     pub spin: bool,
     /// Whether bodies that touch too often for events may be stepped.
     pub stepped_groups: bool,
-    /// Length of their steps, s; 0 where there are none.
+    /// Length of their steps, s; 0 where there are none, and while nothing moves or drives the bodies.
     pub group_step: f64,
     /// What was not stored and not computed because nothing in the scene needs it.
     pub left_out: Vec<&'static str>,

@@ -137,6 +137,9 @@ impl Simulation {
             let advanced = drive::advance(&self.model, &mut self.state);
             // What an event changed is seen from that event on, from the first where one impact has several rows.
             let event = self.state.outbox.front().map(|event| event.seq);
+            if event.is_some() {
+                drive::look(&mut self.model, &mut self.state);
+            }
             self.state.seal_trace(event.unwrap_or(self.state.sequence), event.is_some());
             match advanced {
                 Ok(true) => {}

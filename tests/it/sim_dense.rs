@@ -1,11 +1,13 @@
 //! Stepped groups: heaps come to rest, wake, gain nothing, and depend on nothing but the scene.
 
+use std::sync::Arc;
+
 use glam::{DVec3, dvec3};
 use polyscene::scene::{NodeKey, Scene};
-use polyscene::sim::{BodyRef, ContactState, Event, EventKind, SimEdit, Simulation};
+use polyscene::sim::{BodyRef, ContactState, Event, EventKind, Force, SimEdit, Simulation, Subject};
 use polyscene::study::Random;
 
-use crate::common::build::{Build, Shaped, ball};
+use crate::common::build::{Build, Shaped, ball, empty};
 use crate::common::contact_scenes::{ContactScene, scaled};
 use crate::common::drive::{Sampling, advance, assert_same_bits, run, simulation, watch};
 use crate::common::heaps::{BOX, GRAVITY, Heap, RADIUS};
@@ -206,6 +208,72 @@ fn stepped_groups_scale() {
     }
     for ((_, one), (_, other)) in expected.states.iter().zip(&got.states) {
         assert_eq!(length * one.position, other.position);
+    }
+}
+
+/// A spring to a place that is nothing at the start and swings.
+#[derive(Debug)]
+struct Swing {
+    middle: DVec3,
+    /// N/m.
+    stiffness: f64,
+    /// rad/s.
+    frequency: f64,
+}
+
+impl Force for Swing {
+    fn force(&self, on: &Subject<'_>) -> DVec3 {
+        self.stiffness * (self.frequency * on.time).sin() * (self.middle - on.position)
+    }
+
+    fn potential(&self, _: &Subject<'_>) -> Option<f64> {
+        None
+    }
+}
+
+/// Nothing but 1/1024 m and 1 s could tell how long a step is of bodies that lie still under a force that is nothing yet.
+#[test]
+fn steps_under_a_force_that_is_nothing_at_first_scale() {
+    let middle = DVec3::splat(5.0);
+    let corner = |k: i64, bit: i64| if k & (1 << bit) == 0 { -1.0 } else { 1.0 + 0.1 * k as f64 };
+    let balls = (0..8_i64)
+        .map(|k| ball(k + 1, middle + dvec3(corner(k, 0), corner(k, 1), corner(k, 2)), DVec3::ZERO));
+    let scene = balls.fold(empty(), |scene, ball| scene.body(ball.bounce(0.3)));
+    let whole = ContactScene { what: "eight balls".into(), scene, until: 2.5, most_events: u64::MAX };
+    let swung = |length: f64, time: f64| {
+        let mut sim = simulation(&scaled(&whole, length, time).scene);
+        let (stiffness, frequency) = (8.0 / (time * time), 1.0 / time);
+        sim.add_force(Arc::new(Swing { middle: length * middle, stiffness, frequency }))
+            .expect("a sound force");
+        assert_eq!(sim.plan().group_step, 0.0, "nothing tells how long a step is");
+        let mut was_stepped = false;
+        watch(&mut sim, 2.5 * time, Sampling::Every(time / 8.0), |sim, _| {
+            was_stepped |= sim.stepped().is_some();
+        });
+        assert!(was_stepped, "they meet too often for events");
+        sim
+    };
+    let plain = swung(1.0, 1.0);
+    let step = plain.plan().group_step;
+    assert!((1e-4..0.1).contains(&step), "{step}");
+    let other = swung(1024.0, 32.0);
+    assert_eq!(32.0 * step, other.plan().group_step);
+    for body in plain.dynamic_bodies() {
+        let [one, other] = [&plain, &other].map(|sim| sim.state(body).expect("a body").position);
+        assert_eq!(1024.0 * one, other);
+    }
+}
+
+#[test]
+fn steps_found_from_motion_follow_the_fastest() {
+    let still = empty().body(ball(1, DVec3::splat(5.0), DVec3::ZERO).bounce(0.5));
+    let mut sim = simulation(&still.ball(2, dvec3(8.0, 5.0, 5.0), DVec3::ZERO));
+    assert_eq!(sim.plan().group_step, 0.0);
+    // 0.02 · 0.5 m/v, as a power of two.
+    for (id, speed, expected) in [(3, 1.0, 1.0 / 128.0), (4, 16.0, 1.0 / 2048.0), (5, 2.0, 1.0 / 2048.0)] {
+        let added = ball(id, dvec3(1.0, 2.0 * id as f64 - 5.0, 1.0), -speed * DVec3::X);
+        sim.apply(&SimEdit::AddBody(Box::new(added))).expect("a sound body");
+        assert_eq!(sim.plan().group_step, expected, "{speed} m/s");
     }
 }
 

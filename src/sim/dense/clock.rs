@@ -1,50 +1,94 @@
 //! The grid of model time on which groups are stepped.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
-use super::tolerance::{FALL_IN_A_STEP, MOST_HALVINGS_BY_PULL, SHORTEST_STEP, WAY_IN_A_STEP};
+use super::tolerance::{FALL_IN_A_STEP, MOST_HALVINGS_BY_PULL, SHORTEST_STEP, WAY_IN_A_STEP, WAY_OF_RADIUS};
 use crate::sim::books::undamped;
-use crate::sim::force::Law;
-use crate::sim::model::Model;
+use crate::sim::force::{Law, Subject};
+use crate::sim::model::{Model, StepSource};
 use crate::sim::place::Place;
+use crate::sim::state::State;
 
-/// Sets the step of groups: `at` gives where the bodies are and how fast.
-pub(in crate::sim) fn set_step(model: &mut Model, at: impl Fn(u32) -> (DVec3, DVec3)) {
-    model.dense_step = step_length(model, at);
+/// Sets the step of groups at a time; `at` gives where the bodies are and how fast. What is left of motion tells nothing:
+/// once there are steps, they are kept when the forces are taken away, and those found from motion grow no longer.
+pub(in crate::sim) fn set_step(model: &mut Model, time: f64, at: impl Fn(u32) -> (DVec3, DVec3)) {
+    let (length, source) = step_length(model, time, at);
+    let is_kept = match (model.step_source, source) {
+        (_, StepSource::Nothing) | (StepSource::Forces | StepSource::ForcesAtRest, StepSource::Motion) => {
+            true
+        }
+        (StepSource::Motion, StepSource::Motion) => model.dense_step <= length,
+        _ => false,
+    };
+    if !is_kept {
+        (model.dense_step, model.step_source) = (length, source);
+    }
     model.plan.group_step = model.dense_step;
+}
+
+/// Sets it where nothing told it for certain before something happened; whether it was so.
+pub(in crate::sim) fn find_step(model: &mut Arc<Model>, state: &State) -> bool {
+    let is_found = matches!(model.step_source, StepSource::Motion | StepSource::Forces);
+    if is_found || !model.plan.stepped_groups {
+        return false;
+    }
+    let (time, now) = (state.reached, |body| state.path(body));
+    let at = |body| (now(body).position(time), now(body).velocity(time));
+    if matches!(step_length(model, time, at).1, StepSource::Motion | StepSource::Forces) {
+        set_step(Arc::make_mut(model), time, at);
+    }
+    true
 }
 
 /// Length of a step, s: a power of two, so that grid times are exact, of at most √(2e-4·r/g) for the smallest radius
 /// and the largest acceleration of the bodies where they are. The pull of a point attractor, which grows as they come
 /// near, shortens steps where it is felt ([`step_at`]), but no further than for bodies that touch at its centre. Without
-/// forces bodies pass a fiftieth of the radius in a step.
-fn step_length(model: &Model, at: impl Fn(u32) -> (DVec3, DVec3)) -> f64 {
+/// forces bodies pass a fiftieth of the radius in a step. Under forces of the user's own alone, which may be next to nothing
+/// just now, they pass a quarter at most.
+fn step_length(model: &Model, time: f64, at: impl Fn(u32) -> (DVec3, DVec3)) -> (f64, StepSource) {
     if model.params.dense_step > 0.0 {
-        return model.params.dense_step;
+        return (model.params.dense_step, StepSource::Forces);
     }
-    let smallest = model.present().map(|body| model.radius(body)).fold(f64::INFINITY, f64::min);
+    let smallest = model.bodies.range_of_radii().0;
     let (mut without, mut within, mut fastest) = (0.0_f64, 0.0_f64, 0.0_f64);
     for body in model.present() {
         let (x, v) = at(body);
+        let subject = model.subject(body, time, Place::exact(x), v);
         fastest = fastest.max(v.length());
-        without = without.max(acceleration(model, body, x, |_| 0.0));
+        without = without.max(acceleration(model, &subject, |_| 0.0));
         within =
-            within.max(acceleration(model, body, x, |intensity| intensity / (4.0 * smallest * smallest)));
+            within.max(acceleration(model, &subject, |intensity| intensity / (4.0 * smallest * smallest)));
     }
-    if within > 0.0 {
-        let shortest = power_of_two_below(fall_time(smallest, within));
-        let longest = shortest * f64::from(1_u32 << MOST_HALVINGS_BY_PULL);
-        return if without > 0.0 {
-            power_of_two_below(fall_time(smallest, without)).min(longest)
-        } else {
-            longest
-        };
+    let passed = |part: f64| power_of_two_below(part * smallest / fastest);
+    if within == 0.0 {
+        return known(passed(WAY_IN_A_STEP), StepSource::Motion);
     }
-    // Once there are steps, they are kept when the forces are taken away: what is left of motion tells nothing.
-    if model.dense_step > 0.0 {
-        return model.dense_step;
+    let longest = power_of_two_below(fall_time(smallest, within)) * f64::from(1_u32 << MOST_HALVINGS_BY_PULL);
+    let length =
+        if without > 0.0 { power_of_two_below(fall_time(smallest, without)).min(longest) } else { longest };
+    if model.forces.iter().any(|force| lasts(&force.law)) {
+        known(length, StepSource::Forces)
+    } else if fastest > 0.0 {
+        known(length.min(passed(WAY_OF_RADIUS)), StepSource::Forces)
+    } else {
+        known(length, StepSource::ForcesAtRest)
     }
-    power_of_two_below(WAY_IN_A_STEP * smallest / fastest)
+}
+
+/// Whether a law drives what lies still, and goes on to.
+fn lasts(law: &Law) -> bool {
+    match *law {
+        Law::Uniform { acceleration } => acceleration != DVec3::ZERO,
+        Law::Point { intensity, .. } => intensity != 0.0,
+        Law::Drag { .. } | Law::Custom(_) => false,
+    }
+}
+
+/// A step and what it was found from, unless it is out of range.
+fn known(length: f64, source: StepSource) -> (f64, StepSource) {
+    if length > 0.0 { (length, source) } else { (0.0, StepSource::Nothing) }
 }
 
 /// How often the step of a body is halved for the pull of attractors at a place.
@@ -74,19 +118,19 @@ fn fall_time(radius: f64, acceleration: f64) -> f64 {
 }
 
 /// What drives a body, without drag, m/s²; attractors by a pull of their intensity.
-fn acceleration(model: &Model, body: u32, x: DVec3, pull: impl Fn(f64) -> f64) -> f64 {
-    let subject = model.subject(body, 0.0, Place::exact(x), DVec3::ZERO);
+fn acceleration(model: &Model, subject: &Subject<'_>, pull: impl Fn(f64) -> f64) -> f64 {
     let of_law = |law: &Law| match *law {
         Law::Point { intensity, .. } => DVec3::X * pull(intensity.abs()),
-        _ => law.force(&subject) / subject.mass,
+        Law::Drag { .. } => DVec3::ZERO,
+        Law::Uniform { .. } | Law::Custom(_) => law.force(subject) / subject.mass,
     };
     model.forces.iter().map(|force| of_law(&force.law)).sum::<DVec3>().length()
 }
 
-/// The largest power of two not above a time; 1 where that is out of range.
+/// The largest power of two not above a time; 0 where that is out of range.
 fn power_of_two_below(time: f64) -> f64 {
     if !time.is_normal() {
-        return 1.0;
+        return 0.0;
     }
     f64::from_bits(time.to_bits() & (0x7ff << 52))
 }
@@ -120,6 +164,6 @@ mod tests {
     fn powers_of_two_scale() {
         assert_eq!(power_of_two_below(0.0013), 1.0 / 1024.0);
         assert_eq!(power_of_two_below(0.25), 0.25);
-        assert_eq!(power_of_two_below(f64::INFINITY), 1.0);
+        assert_eq!(power_of_two_below(f64::INFINITY), 0.0);
     }
 }

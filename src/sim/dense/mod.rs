@@ -35,7 +35,7 @@ mod view;
 pub(super) use activity::{
     least_crowd, least_elastic_crowd, may_be_crowd, note_impact, note_too_few, note_work,
 };
-pub(super) use clock::{set_step, step_at};
+pub(super) use clock::{find_step, set_step, step_at};
 pub(super) use data::{Dense, Role};
 pub(super) use group_step::{enter, next_step, reach, step, wake_all};
 pub(super) use membership::component;
