@@ -175,7 +175,7 @@ pub(super) struct Bodies {
     statics: Vec<Body>,
     /// Radii of the dynamic bodies, m: close together, for predictions read many.
     radii: Vec<f64>,
-    /// The least and the largest of them, m.
+    /// The least and the largest of those that are there, m.
     range_of_radii: Option<(f64, f64)>,
     /// Where the static bodies are, as motions that never change.
     static_segments: Vec<Segment>,
@@ -229,7 +229,16 @@ impl Bodies {
         self.radii[body as usize]
     }
 
-    /// The least and the largest radius of the dynamic bodies that ever were there, m.
+    /// Finds the least and the largest radius anew, after bodies were removed.
+    pub fn measure(&mut self) {
+        let radii = self.present_dynamic().map(|body| self.radius(body));
+        self.range_of_radii = radii.fold(None, |range, radius| {
+            let (least, largest) = range.unwrap_or((radius, radius));
+            Some((radius.min(least), radius.max(largest)))
+        });
+    }
+
+    /// The least and the largest radius of the dynamic bodies that are there, m.
     pub fn range_of_radii(&self) -> (f64, f64) {
         self.range_of_radii.unwrap_or_default()
     }

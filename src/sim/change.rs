@@ -101,6 +101,7 @@ pub(super) fn remove_custom(
 
 /// What the changed scene needs.
 fn plan_anew(model: &mut Model, state: &mut State) {
+    model.bodies.measure();
     model.plan = plan_of(model);
     // What turns goes on turning, also where nothing rubs any more.
     model.plan.spin |= !state.turns.is_empty();
