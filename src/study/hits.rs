@@ -1,5 +1,7 @@
 //! Impacts of a run against those of the reference: which are missing, which are wrong.
 
+use glam::DVec3;
+
 /// Who met when.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PairImpact {
@@ -7,6 +9,17 @@ pub struct PairImpact {
     pub time: f64,
     /// Indices in the scene's bodies, in any order.
     pub bodies: [usize; 2],
+    /// Of a ball that met what stands still.
+    pub onto: Option<Onto>,
+}
+
+/// How a ball met what stands still.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Onto {
+    /// Index in the scene's bodies.
+    pub ball: usize,
+    /// Unit vector from the ball to where it met that.
+    pub towards: DVec3,
 }
 
 /// What two lists of impacts differ in.
@@ -23,17 +36,24 @@ pub struct Differences {
 /// Impacts of one pair closer in time than this, s, are one: a group may be resolved in several rows.
 const SAME_INSTANT: f64 = 1e-10;
 
+/// Directions closer than this, in radians, are one: a ball that meets the edge of two walls meets either or both.
+const SAME_DIRECTION: f64 = 1e-3;
+
 /// Matches, pair by pair in order of time, impacts at most `window` apart. Those after `until` may be
-/// partners but are not counted themselves.
+/// partners but are not counted themselves, nor is one of a ball that the other list has from that direction at that time,
+/// with another body.
 pub fn compare(run: &[PairImpact], reference: &[PairImpact], until: f64, window: f64) -> Differences {
     let (run, reference) = (by_pair(run), by_pair(reference));
+    let (run_by_ball, reference_by_ball) = (by_ball(&run), by_ball(&reference));
     let mut differences = Differences::default();
-    let mut count = |time: f64, counter: fn(&mut Differences) -> &mut u64| {
-        if time <= until {
-            *counter(&mut differences) += 1;
-            differences.first = Some(differences.first.map_or(time, |first| first.min(time)));
-        }
-    };
+    let mut count =
+        |hit: &PairImpact, others: &[(Onto, PairImpact)], counter: fn(&mut Differences) -> &mut u64| {
+            let time = hit.time;
+            if time <= until && !is_shared(hit, others, window) {
+                *counter(&mut differences) += 1;
+                differences.first = Some(differences.first.map_or(time, |first| first.min(time)));
+            }
+        };
     let (mut left, mut right) = (run.iter().peekable(), reference.iter().peekable());
     loop {
         match (left.peek(), right.peek()) {
@@ -43,24 +63,45 @@ pub fn compare(run: &[PairImpact], reference: &[PairImpact], until: f64, window:
                     left.next();
                     right.next();
                 } else if (own.bodies, own.time) < (expected.bodies, expected.time) {
-                    count(own.time, |d| &mut d.wrong);
+                    count(own, &reference_by_ball, |d| &mut d.wrong);
                     left.next();
                 } else {
-                    count(expected.time, |d| &mut d.missed);
+                    count(expected, &run_by_ball, |d| &mut d.missed);
                     right.next();
                 }
             }
             (Some(own), None) => {
-                count(own.time, |d| &mut d.wrong);
+                count(own, &reference_by_ball, |d| &mut d.wrong);
                 left.next();
             }
             (None, Some(expected)) => {
-                count(expected.time, |d| &mut d.missed);
+                count(expected, &run_by_ball, |d| &mut d.missed);
                 right.next();
             }
             (None, None) => return differences,
         }
     }
+}
+
+/// Whether the impact of a ball is among others on another body that it met at the same place.
+fn is_shared(hit: &PairImpact, others: &[(Onto, PairImpact)], window: f64) -> bool {
+    let Some(Onto { ball, towards }) = hit.onto else { return false };
+    let first = others.partition_point(|(onto, other)| (onto.ball, other.time) < (ball, hit.time - window));
+    others[first..]
+        .iter()
+        .take_while(|(onto, other)| onto.ball == ball && other.time <= hit.time + window)
+        .any(|(onto, other)| {
+            other.bodies != hit.bodies && (onto.towards - towards).length() <= SAME_DIRECTION
+        })
+}
+
+/// Those on what stands still, by ball and time.
+fn by_ball(hits: &[PairImpact]) -> Vec<(Onto, PairImpact)> {
+    let mut hits: Vec<_> = hits.iter().filter_map(|hit| Some((hit.onto?, *hit))).collect();
+    hits.sort_by(|(left, one), (right, other)| {
+        left.ball.cmp(&right.ball).then(one.time.total_cmp(&other.time))
+    });
+    hits
 }
 
 fn by_pair(hits: &[PairImpact]) -> Vec<PairImpact> {

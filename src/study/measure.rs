@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use glam::DVec3;
 
-use super::hits::compare;
+use super::hits::{Onto, compare};
 use super::overlap::OverlapMonitor;
 use super::{Candidate, Control, HorizonCause, PairImpact, RunFigures, Stop, StudySettings, Truth};
 use crate::scene::Scene;
@@ -193,10 +193,14 @@ impl<'a> ObservedRun<'a> {
         self.events += 1;
         if let (EventKind::Impact | EventKind::Collapse, Some(b)) = (event.kind, event.b) {
             self.point.impacts += 1;
-            self.hits.push(PairImpact {
-                time: event.time,
-                bodies: [self.scene_index(event.a), self.scene_index(b)],
-            });
+            let bodies = [self.scene_index(event.a), self.scene_index(b)];
+            let onto = match (event.a, b) {
+                (BodyRef::Dynamic(_), BodyRef::Static(_)) => Some((bodies[0], event.normal)),
+                (BodyRef::Static(_), BodyRef::Dynamic(_)) => Some((bodies[1], -event.normal)),
+                _ => None,
+            };
+            let onto = onto.map(|(ball, towards)| Onto { ball, towards });
+            self.hits.push(PairImpact { time: event.time, bodies, onto });
         }
         if self.may_look_often() {
             self.look();

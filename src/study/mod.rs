@@ -35,7 +35,7 @@ pub use candidate::{Candidate, Marker, look_of};
 pub use chart::{ChartError, svg};
 pub use control::{Control, StudyProgress};
 pub use csv::csv;
-pub use hits::{Differences, PairImpact, compare};
+pub use hits::{Differences, Onto, PairImpact, compare};
 pub use measure::{Limits, measure};
 pub use overlap::OverlapMonitor;
 pub use report::{Horizon, HorizonCause, RunFigures, Stop, StudyReport};

@@ -5,7 +5,8 @@ use std::time::{Duration, Instant};
 
 use glam::DVec3;
 
-use super::reference::{Ball, Reference, ReferenceSettings, Step};
+use super::hits::Onto;
+use super::reference::{Ball, Impact, Reference, ReferenceSettings, Step};
 use super::{Control, Horizon, HorizonCause, PairImpact, StudySettings};
 use crate::scene::Scene;
 
@@ -101,7 +102,11 @@ fn advance(
     loop {
         match reference.step(until) {
             Ok(Step::Flew) => {}
-            Ok(Step::Impact(impact)) => hits.push(PairImpact { time: impact.time, bodies: impact.bodies }),
+            Ok(Step::Impact(impact)) => {
+                let Impact { time, bodies, onto, .. } = impact;
+                let onto = onto.map(|(ball, towards)| Onto { ball, towards });
+                hits.push(PairImpact { time, bodies, onto });
+            }
             Ok(Step::Done) => return Ok(()),
             Err(end) => {
                 return Err(HorizonCause::Unknown(format!("the reference ends where {end}")));

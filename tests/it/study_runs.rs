@@ -6,7 +6,7 @@ use glam::{DVec3, dvec3};
 use polyscene::scene::{ForceKind, Scene};
 use polyscene::sim::{Method, Simulation};
 use polyscene::study::{
-    AXES, Candidate, Control, HorizonCause, Limits, PairImpact, RunFigures, StudyProgress, StudyReport,
+    AXES, Candidate, Control, HorizonCause, Limits, Onto, PairImpact, RunFigures, StudyProgress, StudyReport,
     StudySettings, Truth, compare, csv, measure, run, seconds, svg, table,
 };
 use quick_xml::events::Event;
@@ -147,7 +147,7 @@ fn tunnelling_is_a_missed_impact() {
 
 #[test]
 fn lists_of_impacts_are_told_apart() {
-    let hit = |time, a, b| PairImpact { time, bodies: [a, b] };
+    let hit = |time, a, b| PairImpact { time, bodies: [a, b], onto: None };
     let reference = [hit(1.0, 0, 1), hit(2.0, 0, 1), hit(2.5, 1, 2), hit(3.0, 0, 1)];
     let late = [hit(1.0005, 1, 0), hit(2.0, 0, 1), hit(2.5, 2, 1), hit(2.9995, 0, 1)];
     assert_eq!(compare(&late, &reference, 4.0, 1e-3).first, None);
@@ -156,6 +156,27 @@ fn lists_of_impacts_are_told_apart() {
     assert_eq!((found.missed, found.wrong, found.first), (1, 1, Some(2.0)));
     // What lies beyond the end may be a partner, but is not counted.
     assert_eq!(compare(&[], &reference, 2.2, 1e-3).missed, 2);
+}
+
+/// Ball 0 comes down on the edge that walls 1 and 2 share: one list has both, another either.
+#[test]
+fn an_impact_on_the_edge_of_two_walls_is_one() {
+    let onto =
+        |time, wall, towards| PairImpact { time, bodies: [0, wall], onto: Some(Onto { ball: 0, towards }) };
+    let down = dvec3(0.0, -1.0, 0.0);
+    let (first, second) = (onto(1.0, 1, down), onto(1.0, 2, down));
+    for (run, reference) in
+        [(vec![first, second], vec![first]), (vec![first], vec![second]), (vec![second], vec![first, second])]
+    {
+        assert_eq!(compare(&run, &reference, 4.0, 1e-3).first, None, "{run:?} {reference:?}");
+    }
+    // From another side, and at another time.
+    for other in [onto(1.0, 2, DVec3::X), onto(1.1, 2, down)] {
+        assert_eq!(compare(&[first, other], &[first], 4.0, 1e-3).wrong, 1, "{other:?}");
+    }
+    // Another ball on the same wall.
+    let beside = PairImpact { bodies: [3, 1], onto: Some(Onto { ball: 3, towards: down }), ..first };
+    assert_eq!(compare(&[first, beside], &[first], 4.0, 1e-3).wrong, 1);
 }
 
 #[test]

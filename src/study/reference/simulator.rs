@@ -24,6 +24,8 @@ pub struct Impact {
     pub normal: DVec3,
     /// N·s.
     pub impulse: f64,
+    /// Of a ball on what stands still: its index in the scene's bodies, and the unit vector from it to that.
+    pub onto: Option<(usize, DVec3)>,
 }
 
 /// A ball on a face that ceased to slip, or came to rest.
@@ -438,7 +440,8 @@ impl Reference {
         }
         let ((a, b), normal) =
             if own <= other { ((own, other), gap.towards) } else { ((other, own), -gap.towards) };
-        Impact { time: self.time, a: a.0, b: b.0, bodies: [a.1, b.1], point, normal, impulse }
+        let onto = matches!(pair, Pair::Static(..)).then_some((own.1, gap.towards));
+        Impact { time: self.time, onto, a: a.0, b: b.0, bodies: [a.1, b.1], point, normal, impulse }
     }
 
     /// The impulse of friction on the second body, N·s.
