@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::scene::{Body, Scene, Shape, rotation_matrix};
+use crate::scene::{Body, HEAP_OVERLAP, Scene, Shape, rotation_matrix};
 
 /// Rounding of a place: units in the last place of a coordinate that a gap may be off by.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -59,11 +59,20 @@ pub(super) fn overlap(scene: &Scene, a: &Body, b: &Body) -> Option<f64> {
     (depth > tolerance(scene, a, b)).then_some(depth)
 }
 
+/// How deep two bodies overlap, m, where that is more than a heap at rest does.
+pub(super) fn deep_overlap(scene: &Scene, a: &Body, b: &Body) -> Option<f64> {
+    overlap(scene, a, b).filter(|depth| *depth > HEAP_OVERLAP * smaller_radius(a, b))
+}
+
 /// How near or deep two bodies may be and still count as touching, m.
 pub(super) fn tolerance(scene: &Scene, a: &Body, b: &Body) -> f64 {
-    let radius = [a, b].into_iter().filter_map(radius).fold(f64::INFINITY, f64::min);
+    let radius = smaller_radius(a, b);
     let place = a.position.abs().max_element().max(b.position.abs().max_element());
     (scene.params.contact_distance * radius).max(ROUNDING * (place + radius))
+}
+
+fn smaller_radius(a: &Body, b: &Body) -> f64 {
+    [a, b].into_iter().filter_map(radius).fold(f64::INFINITY, f64::min)
 }
 
 pub(super) fn radius(body: &Body) -> Option<f64> {

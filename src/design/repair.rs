@@ -9,7 +9,7 @@ use super::measure::{MOST_ON_AXIS, Repair, fitting_tiles, is_outside, may_move, 
 use super::near::for_each_near;
 use super::plan::Plan;
 use super::tool::{Tool, ToolGroup};
-use super::trouble::troubles;
+use super::trouble::{overlapping, troubles};
 use crate::scene::{Body, BodyChange, Document, Edit, EditError, ForceChange, NodeKey, Scene, Touched};
 
 /// Rounds in which all pairs are pushed apart: chains of balls take about as many as they are long.
@@ -150,7 +150,7 @@ fn push(a: &mut Body, b: &mut Body) -> Option<()> {
 
 fn push_all(scene: &Scene) -> Option<Plan> {
     let mut bodies = scene.bodies.clone();
-    let (mut left, mut pushes) = (0, 0);
+    let mut pushes = 0;
     for _ in 0..ROUNDS {
         let mut pairs = Vec::new();
         for_each_near(&bodies, 0.0, |a, b| {
@@ -159,11 +159,10 @@ fn push_all(scene: &Scene) -> Option<Plan> {
             }
             true
         });
-        left = pairs.len();
-        if left == 0 || pushes > MOST_PUSHES {
+        if pairs.is_empty() || pushes > MOST_PUSHES {
             break;
         }
-        pushes += left;
+        pushes += pairs.len();
         // Plates last, so that no round ends with a ball behind one.
         pairs.sort_by_key(|&(a, b)| (!(bodies[a].is_dynamic() && bodies[b].is_dynamic()), a, b));
         for (a, b) in pairs {
@@ -175,6 +174,8 @@ fn push_all(scene: &Scene) -> Option<Plan> {
     }
     let moved = bodies.iter().zip(&scene.bodies).filter(|(now, before)| now.position != before.position);
     let edits: Vec<Edit> = moved.map(|(now, _)| placed(now)).collect();
+    // As many as are listed after it.
+    let left = overlapping(scene, &bodies).len();
     let remark =
         (left > 0).then(|| format!("{left} pairs still overlap: push them apart again, or make room"));
     let label = format!("Push {} bodies apart", edits.len());

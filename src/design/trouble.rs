@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use super::gap::overlap;
+use super::gap::deep_overlap;
 use super::measure::{Repair, fitting_tiles, is_outside, may_part, middle_radius};
 use super::near::for_each_near;
 use crate::scene::{Body, Motion, NodeKey, Scene};
@@ -59,17 +59,23 @@ pub fn troubles(scene: &Scene) -> Vec<Trouble> {
     all
 }
 
-fn overlaps(scene: &Scene) -> Vec<Trouble> {
-    let bodies = &scene.bodies;
+/// Pairs that overlap by more than a heap does, by their places among the bodies, with how deep, m.
+pub(super) fn overlapping(scene: &Scene, bodies: &[Body]) -> Vec<(usize, usize, f64)> {
     let mut pairs = Vec::new();
     for_each_near(bodies, 0.0, |a, b| {
-        if let Some(depth) = overlap(scene, &bodies[a], &bodies[b]) {
+        if let Some(depth) = deep_overlap(scene, &bodies[a], &bodies[b]) {
             // The moving one first, then by UserID: as the simulation, its warnings and its events name them.
             let rank = |nth: usize| (!bodies[nth].is_dynamic(), bodies[nth].id, nth);
             pairs.push(if rank(a) <= rank(b) { (a, b, depth) } else { (b, a, depth) });
         }
         pairs.len() < MOST_PAIRS
     });
+    pairs
+}
+
+fn overlaps(scene: &Scene) -> Vec<Trouble> {
+    let bodies = &scene.bodies;
+    let mut pairs = overlapping(scene, bodies);
     pairs.sort_by_key(|(a, b, _)| (*a, *b));
     let listed = pairs.iter().take(MOST_LISTED).map(|&(a, b, depth)| {
         let (a, b) = (&bodies[a], &bodies[b]);

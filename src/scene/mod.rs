@@ -36,7 +36,7 @@ pub use euler::euler_near;
 pub use foreign::Foreign;
 pub use names::Names;
 pub use number::NumberStyle;
-pub use params::{PARAMS, ParamInfo, SimParams};
+pub use params::{HEAP_OVERLAP, PARAMS, ParamInfo, SimParams};
 pub use save::{
     FileId, FileStamp, canonical_target, check_writable, same_file, write_atomically, write_private,
 };

@@ -31,6 +31,10 @@ impl Default for SimParams {
     }
 }
 
+/// So much of the smaller radius bodies of a heap may overlap by for good: the core keeps below it, and what it wrote as the
+/// end of a run is a fine start.
+pub const HEAP_OVERLAP: f64 = 1e-3;
+
 /// One row of [`PARAMS`].
 pub struct ParamInfo {
     /// Attribute of the `Solver` element.

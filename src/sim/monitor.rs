@@ -10,7 +10,7 @@ use super::pair::Pair;
 use super::predict::touch_tolerance;
 use super::report::Tiling;
 use super::state::State;
-use crate::scene::{Diagnostic, NodeKey, Severity};
+use crate::scene::{Diagnostic, HEAP_OVERLAP, NodeKey, Severity};
 
 /// Deepest overlap at `time` of any two bodies that share a tile, m, ≥ 0.
 pub(super) fn worst_overlap(model: &Model, state: &State, time: f64) -> f64 {
@@ -22,7 +22,7 @@ pub(super) fn worst_overlap(model: &Model, state: &State, time: f64) -> f64 {
     worst
 }
 
-/// Warnings about the start: what overlaps, and what lies outside the map. An error if so much overlaps that
+/// Warnings about the start: what overlaps by more than a heap does, and what lies outside the map. An error if so much overlaps that
 /// no simulation could begin in a sensible time.
 pub(super) fn start_warnings(model: &Model, state: &State) -> Result<Vec<Diagnostic>, Diagnostic> {
     let mut warnings = overlap_warnings(model, state)?;
@@ -42,7 +42,7 @@ fn overlap_warnings(model: &Model, state: &State) -> Result<Vec<Diagnostic>, Dia
     for_each_neighbour(model, state, |pair| {
         let gap = gap_of(model, state, pair, state.now);
         let depth = -gap.distance;
-        if depth > contact_distance(model, pair, gap.point) {
+        if depth > contact_distance(model, pair, gap.point).max(HEAP_OVERLAP * smallest_radius(model, pair)) {
             count += 1;
             if count <= MOST_WARNINGS {
                 let (a, b) = (&model.body(pair.a).identity, &model.body(pair.b).identity);
@@ -69,6 +69,13 @@ fn overlap_warnings(model: &Model, state: &State) -> Result<Vec<Diagnostic>, Dia
         warnings.push(about_all(format!("and {more} more overlaps at the start"), "fix the first ones"));
     }
     Ok(warnings)
+}
+
+/// Radius of the smaller sphere of a pair, m.
+fn smallest_radius(model: &Model, pair: Pair) -> f64 {
+    let radii = [pair.a, pair.b].map(|body| model.body(body).shape.radius());
+    // That of a plate is 0.
+    radii.into_iter().filter(|radius| *radius > 0.0).fold(f64::INFINITY, f64::min)
 }
 
 fn outside_warnings(model: &Model, state: &State) -> Vec<Diagnostic> {

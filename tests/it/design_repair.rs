@@ -202,3 +202,38 @@ fn pushing_a_crowd_apart_ends_soon_and_says_what_is_left() {
     assert!(started.elapsed().as_secs_f64() < 20.0, "{:?}", started.elapsed());
     assert!(plan.remark.is_some_and(|remark| remark.contains("push them apart again")));
 }
+
+/// The end of a heap as a start: two balls overlap by a part of what a heap keeps, two by more.
+#[test]
+fn what_a_heap_keeps_of_overlap_is_no_trouble_to_scene_or_simulation() {
+    for (overlap, is_listed) in [(0.9e-3, false), (1.1e-3, true)] {
+        for radius in [2e-7, 0.2] {
+            let second = dvec3(0.5, 0.5 + 2.0 * radius - overlap * radius, 0.5);
+            let document = made(vec![ball(1, DVec3::splat(0.5), radius, 1.0), ball(2, second, radius, 1.0)]);
+            let is_overlap = |kind: &TroubleKind| *kind == TroubleKind::Overlap;
+            assert_eq!(kinds(&document).iter().any(is_overlap), is_listed, "{overlap} of {radius} m");
+            let sim = Simulation::new(scene(&document)).expect("a sound scene");
+            let warned = sim.start_warnings().iter().any(|warning| warning.message.contains(" overlap by "));
+            assert_eq!(warned, is_listed, "{overlap} of {radius} m");
+        }
+    }
+}
+
+/// A ball that no room is left for, and two that may not be moved.
+#[test]
+fn pushing_apart_tells_how_many_are_left_as_the_list_does() {
+    let mut edits = vec![ball(1, DVec3::splat(5.0), 0.5, 1.0)];
+    for (id, z) in [(2, 4.7), (3, 5.3)] {
+        let shape = Shape::Plane { half_x: 3.0, half_y: 3.0 };
+        edits.push(Edit::AddBody(Box::new(Body::new(id, dvec3(5.0, 5.0, z), Motion::Static, shape))));
+    }
+    for (id, x) in [(4, 8.0), (5, 8.4)] {
+        let motion = Motion::Dynamic { mass: 1.0, velocity: DVec3::ZERO };
+        let body = Body::new(id, dvec3(x, 8.0, 8.0), motion, Shape::Sphere { radius: 0.5 });
+        edits.push(Edit::AddBody(Box::new(Body { locked: true, ..body })));
+    }
+    let Repaired { document, done, .. } = repair_all(&made(edits)).unwrap();
+    let left = kinds(&document).iter().filter(|kind| **kind == TroubleKind::Overlap).count();
+    assert_eq!(left, 2);
+    assert!(done.iter().any(|line| line.contains("(2 pairs still overlap")), "{done:?}");
+}
