@@ -1,5 +1,6 @@
 //! Bodies: how they are told apart, and what does not change about them while they move.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
@@ -7,7 +8,7 @@ use glam::{DQuat, DVec3};
 use super::event::BodyRef;
 use super::segment::Segment;
 use super::shape::Shape;
-use crate::scene::{Roughness, rotation_matrix};
+use crate::scene::{NodeKey, Roughness, rotation_matrix};
 
 /// A body of a run. Dynamic ones are numbered from 0, which is their place in all columns of the state; static
 /// ones carry the highest bit, so that of two bodies the dynamic one comes first. A number never changes, whoever
@@ -60,7 +61,7 @@ impl BodyId {
 /// Who a body is.
 #[derive(Clone, Debug)]
 pub(super) struct Identity {
-    pub key: crate::scene::NodeKey,
+    pub key: NodeKey,
     pub id: i64,
     pub label: Arc<str>,
     /// What a person calls it: its name, else its label.
@@ -179,12 +180,18 @@ pub(super) struct Bodies {
     range_of_radii: Option<(f64, f64)>,
     /// Where the static bodies are, as motions that never change.
     static_segments: Vec<Segment>,
+    /// Those that are there, by their keys.
+    by_key: BTreeSet<(NodeKey, BodyId)>,
+    /// How many there ever were of each id.
+    of_id: BTreeMap<i64, u32>,
 }
 
 impl Bodies {
     /// Adds a body; a static one at this place, m.
     pub fn push(&mut self, body: Body, position: DVec3) -> BodyId {
-        if body.is_static() {
+        let key = body.identity.key;
+        *self.of_id.entry(body.id).or_default() += 1;
+        let id = if body.is_static() {
             self.statics.push(body);
             self.static_segments.push(Segment::resting(position));
             BodyId::of_static(self.statics.len() as u32 - 1)
@@ -195,10 +202,20 @@ impl Bodies {
             self.radii.push(radius);
             self.dynamic.push(body);
             BodyId::of_dynamic(self.dynamic.len() as u32 - 1)
-        }
+        };
+        self.by_key.insert((key, id));
+        id
     }
 
-    /// Puts another static body in the place of one.
+    /// Takes a body away: its number stays. [`Self::measure`] is due after the last of several.
+    pub fn remove(&mut self, id: BodyId) {
+        let body = self.get_mut(id);
+        body.present = false;
+        let key = body.identity.key;
+        self.by_key.remove(&(key, id));
+    }
+
+    /// Puts another static body of the same key in the place of one.
     pub fn replace_static(&mut self, index: u32, body: Body, position: DVec3) {
         self.statics[index as usize] = body;
         self.static_segments[index as usize] = Segment::resting(position);
@@ -227,6 +244,16 @@ impl Bodies {
 
     pub fn radius(&self, body: u32) -> f64 {
         self.radii[body as usize]
+    }
+
+    /// The body of a key, if it is there.
+    pub fn of_key(&self, key: NodeKey) -> Option<BodyId> {
+        self.by_key.range((key, BodyId(0))..=(key, BodyId::NONE)).next().map(|(_, id)| *id)
+    }
+
+    /// How many bodies there ever were of an id.
+    pub fn count_of(&self, id: i64) -> u32 {
+        self.of_id.get(&id).copied().unwrap_or(0)
     }
 
     /// Finds the least and the largest radius anew, after bodies were removed.

@@ -1,6 +1,7 @@
 //! Edits of a running simulation: each changes the model and the state at the present time, and books
 //! the energy it puts in.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -16,11 +17,11 @@ use super::fault::Fault;
 use super::force::{Force, ForceEntry, Law};
 use super::ledger::record;
 use super::model::Model;
-use super::neighbours::enter;
+use super::neighbours::{enter, enter_all};
 use super::plan::plan_of;
 use super::segment::Segment;
 use super::state::State;
-use super::tiles::StaticTiles;
+use super::tiles::{StaticTiles, coarse_enough};
 use crate::scene::{Body, NodeKey, Roughness};
 
 /// Applies edits made together at `state.now`: bodies go on anew once, after the last of them. Tells of each in `outcomes`
@@ -33,22 +34,50 @@ pub(super) fn apply(
     outcomes: &mut Vec<Result<(), EditRefused>>,
 ) -> Result<(), EditRefused> {
     let before = close(model, state);
-    let mut subjects = Vec::new();
+    let (mut subjects, mut after) = (Vec::new(), Aftermath::default());
     for edit in edits {
-        outcomes.push(change(model, state, edit).map(|subject| subjects.push(subject)));
+        outcomes.push(change(model, state, &mut after, edit).map(|subject| subjects.push(subject)));
     }
     if let (true, Some(Err(refused))) = (subjects.is_empty(), outcomes.first()) {
         return Err(refused.clone());
     }
+    after.carry_out(model, state);
     plan_anew(model, state);
     restart_all(model, state, &before, &subjects).map_err(|fault| EditRefused(fault.to_string()))
 }
 
+/// What is to be done once after all edits, for it looks at all bodies.
+#[derive(Default)]
+struct Aftermath {
+    /// Whether static bodies came, went or changed.
+    has_new_statics: bool,
+    /// Bodies that nothing touches any more.
+    apart: BTreeSet<BodyId>,
+}
+
+impl Aftermath {
+    fn carry_out(&self, model: &mut Model, state: &mut State) {
+        if self.has_new_statics {
+            remake_tiles(model, state);
+        }
+        if !self.apart.is_empty() {
+            for contacts in &mut state.contacts {
+                contacts.retain(|contact| !self.apart.contains(&contact.other));
+            }
+        }
+    }
+}
+
 /// Makes one change, without its consequences; of the body that it gives, if it is of one. Refused, nothing is changed.
-fn change(model: &mut Model, state: &mut State, edit: &SimEdit) -> Result<Option<BodyId>, EditRefused> {
+fn change(
+    model: &mut Model,
+    state: &mut State,
+    after: &mut Aftermath,
+    edit: &SimEdit,
+) -> Result<Option<BodyId>, EditRefused> {
     match edit {
-        SimEdit::AddBody(body) => add_body(model, state, body).map(Some),
-        SimEdit::Remove(key) => remove(model, state, *key),
+        SimEdit::AddBody(body) => add_body(model, state, after, body).map(Some),
+        SimEdit::Remove(key) => remove(model, state, after, *key),
         SimEdit::AddForce(force) => {
             if model.forces.iter().any(|entry| entry.key == Some(force.key)) {
                 return Err(EditRefused(format!("force {} is there already", force.label)));
@@ -68,7 +97,7 @@ fn change(model: &mut Model, state: &mut State, edit: &SimEdit) -> Result<Option
         SimEdit::Bounce(key, bounce) => set_bounce(model, *key, *bounce).map(Some),
         SimEdit::Roughness(key, roughness) => set_roughness(model, *key, roughness).map(Some),
         SimEdit::Mass(key, mass) => set_mass(model, *key, *mass).map(Some),
-        SimEdit::ChangeStatic(body) => change_static(model, state, body).map(Some),
+        SimEdit::ChangeStatic(body) => change_static(model, after, body).map(Some),
     }
 }
 
@@ -150,11 +179,16 @@ fn restart_all(
     begin_all(model, state)
 }
 
-fn add_body(model: &mut Model, state: &mut State, body: &Body) -> Result<BodyId, EditRefused> {
+fn add_body(
+    model: &mut Model,
+    state: &mut State,
+    after: &mut Aftermath,
+    body: &Body,
+) -> Result<BodyId, EditRefused> {
     if find(model, body.key).is_some() {
         return Err(EditRefused(format!("body {} is there already", body.label)));
     }
-    let order = model.bodies.iter().filter(|(_, other)| other.identity.id == body.id).count() as u32;
+    let order = model.bodies.count_of(body.id);
     let (compiled, origin) = compile_body(body, order).map_err(|problem| EditRefused(problem.message))?;
     let most = MOST_TILES_ACROSS * model.grid.tile_size.min_element();
     if !compiled.is_static() && 2.0 * compiled.shape.radius() > most {
@@ -165,7 +199,7 @@ fn add_body(model: &mut Model, state: &mut State, body: &Body) -> Result<BodyId,
     }
     let id = model.bodies.push(compiled, origin.position);
     let Some(index) = id.dynamic() else {
-        remake_static_tiles(model);
+        after.has_new_statics = true;
         return Ok(id);
     };
     let row = state.push_body(origin);
@@ -177,16 +211,21 @@ fn add_body(model: &mut Model, state: &mut State, body: &Body) -> Result<BodyId,
 /// Tiles across a body added while it runs, at most: the grid was made for the bodies of the start.
 const MOST_TILES_ACROSS: f64 = 64.0;
 
-fn remove(model: &mut Model, state: &mut State, key: NodeKey) -> Result<Option<BodyId>, EditRefused> {
+fn remove(
+    model: &mut Model,
+    state: &mut State,
+    after: &mut Aftermath,
+    key: NodeKey,
+) -> Result<Option<BodyId>, EditRefused> {
     if let Some(index) = model.forces.iter().position(|entry| entry.key == Some(key)) {
         model.forces.remove(index);
         return Ok(None);
     }
     let body = find(model, key).ok_or_else(|| EditRefused("that body is not in the run".into()))?;
-    model.bodies.get_mut(body).present = false;
-    drop_contacts_with(state, body);
+    model.bodies.remove(body);
+    after.apart.insert(body);
     let Some(index) = body.dynamic() else {
-        remake_static_tiles(model);
+        after.has_new_statics = true;
         return Ok(Some(body));
     };
     state.dynamic_tiles.remove(&model.grid, state.registered[index as usize], index);
@@ -197,7 +236,7 @@ fn remove(model: &mut Model, state: &mut State, key: NodeKey) -> Result<Option<B
     Ok(Some(body))
 }
 
-fn change_static(model: &mut Model, state: &mut State, body: &Body) -> Result<BodyId, EditRefused> {
+fn change_static(model: &mut Model, after: &mut Aftermath, body: &Body) -> Result<BodyId, EditRefused> {
     let Some(id) = find(model, body.key).filter(|id| id.is_static()) else {
         return Err(EditRefused(format!("body {} is no static body of the run", body.label)));
     };
@@ -207,8 +246,8 @@ fn change_static(model: &mut Model, state: &mut State, body: &Body) -> Result<Bo
         return Err(EditRefused("a static body cannot become dynamic while running".into()));
     }
     model.bodies.replace_static(id.index(), compiled, origin.position);
-    remake_static_tiles(model);
-    drop_contacts_with(state, id);
+    after.has_new_statics = true;
+    after.apart.insert(id);
     Ok(id)
 }
 
@@ -242,16 +281,16 @@ fn set_mass(model: &mut Model, key: NodeKey, mass: f64) -> Result<BodyId, EditRe
 }
 
 pub(super) fn find(model: &Model, key: NodeKey) -> Option<BodyId> {
-    model.bodies.iter().find(|(_, body)| body.present && body.identity.key == key).map(|(id, _)| id)
+    model.bodies.of_key(key)
 }
 
-fn remake_static_tiles(model: &mut Model) {
+/// Lists the static bodies anew, in coarser tiles where they are too many for these.
+fn remake_tiles(model: &mut Model, state: &mut State) {
     let limit = model.params.static_tile_limit as u64;
-    model.static_tiles = StaticTiles::new(&model.grid, &model.bodies, limit);
-}
-
-fn drop_contacts_with(state: &mut State, other: BodyId) {
-    for contacts in &mut state.contacts {
-        contacts.retain(|contact| contact.other != other);
+    let grid = coarse_enough(model.grid, &model.bodies, limit);
+    if grid != model.grid {
+        model.grid = grid;
+        enter_all(model, state, state.now);
     }
+    model.static_tiles = StaticTiles::new(&model.grid, &model.bodies, limit);
 }

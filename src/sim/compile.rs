@@ -44,7 +44,7 @@ pub(super) fn compile(scene: &Scene, method: Method) -> Result<(Model, Vec<Origi
     forces.sort_by_key(|force| force.id);
     let largest = bodies.dynamic().iter().map(|body| body.shape.radius()).fold(0.0, f64::max);
     let tile_limit = scene.params.static_tile_limit as u64;
-    let grid = coarse_enough(Grid::new(&scene.map, largest), &scene.map, &bodies, tile_limit);
+    let grid = coarse_enough(Grid::new(&scene.map, largest), &bodies, tile_limit);
     let static_tiles = StaticTiles::new(&grid, &bodies, tile_limit);
     let mut model = Model {
         params: scene.params,

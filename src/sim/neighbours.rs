@@ -15,7 +15,7 @@ use super::queue::{Kind, Predicted};
 use super::roots::first_root;
 use super::segment::{Path, Segment};
 use super::state::{Scratch, State};
-use super::tiles::{TileRange, for_each_brick};
+use super::tiles::{DynamicTiles, TileRange, for_each_brick};
 use super::tolerance::{BOX_MARGIN, BOX_ROUNDING, LATER_ROUNDING};
 
 /// How much larger than the body its registered box is, m: more than root finding can be off, and than bodies
@@ -37,6 +37,25 @@ pub(super) fn enter(model: &Model, state: &mut State, body: u32, time: f64) {
     let range = range_at(model, model.radius(body), position);
     state.registered[body as usize] = range;
     state.dynamic_tiles.insert(&model.grid, range, body);
+}
+
+/// Enters all bodies anew, after the tiles have changed.
+pub(super) fn enter_all(model: &Model, state: &mut State, time: f64) {
+    state.dynamic_tiles = DynamicTiles::default();
+    for body in model.present() {
+        let (center, reach) = match state.role(body) {
+            Role::Member(slot) => {
+                let member = state.dense.as_ref().and_then(|dense| dense.members.get(slot as usize));
+                member.map_or((state.position(body, time), 0.0), |member| {
+                    (member.listed_at, OUTER * member.margin)
+                })
+            }
+            Role::Outside | Role::Frozen(_) => (state.position(body, time), 0.0),
+        };
+        let range = range_at(model, model.radius(body) + reach, center);
+        state.registered[body as usize] = range;
+        state.dynamic_tiles.insert(&model.grid, range, body);
+    }
 }
 
 /// Registers a body in all tiles that it may come to while it stays within `reach` of a point, m.

@@ -6,7 +6,7 @@ use glam::{DVec3, dvec3};
 use polyscene::scene::{Force, ForceKind, NodeKey, Roughness, Scene};
 use polyscene::sim::{EventKind, SimEdit, Simulation};
 
-use crate::common::build::{Build, Shaped, ball, empty, plate, thesis};
+use crate::common::build::{Build, Shaped, ball, empty, plate, static_ball, thesis};
 use crate::common::drive::{
     Run, SAMPLINGS, Sampling, advance, assert_same_bits, finished, impacts, simulation, state_of,
 };
@@ -296,4 +296,36 @@ fn of_edits_made_together_those_refused_change_nothing() {
     let mut after = before.clone();
     assert!(after.apply_all(&edits[1..]).iter().all(Result::is_err));
     assert_eq!((after.hash(), after.counters()), (before.hash(), before.counters()));
+}
+
+/// Hundreds of static spheres, each over thousands of tiles, in one edit: the tiles become coarser then as they would have
+/// at the start, and what moves goes on as among those that were there from the start.
+#[test]
+fn many_static_bodies_added_together_coarsen_the_tiles_and_are_met() {
+    let falls = |id: i64| ball(id, dvec3(2.0 + id as f64, 9.0, 5.0), DVec3::ZERO).radius(0.25);
+    let scene = empty().tiles([160; 3]).gravity(-9.8).body(falls(1)).body(falls(2));
+    let pebbles = (0..400_i64)
+        .map(|k| static_ball(10 + k, dvec3((k % 20) as f64 * 0.5, 1.0, (k / 20) as f64 * 0.5), 1.0));
+    let edits: Vec<SimEdit> = pebbles.clone().map(|body| SimEdit::AddBody(Box::new(body))).collect();
+    let mut sim = simulation(&scene);
+    let fine = sim.tiling(1).tiles;
+    assert!(sim.apply_all(&edits).iter().all(Result::is_ok));
+    assert_eq!((fine, sim.tiling(1).tiles), ([160; 3], [40; 3]));
+    let events = advance(&mut sim, 3.0, Sampling::Every(0.1));
+    let from_start = pebbles.fold(scene, Build::body);
+    let mut other = simulation(&from_start);
+    let expected = advance(&mut other, 3.0, Sampling::Every(0.1));
+    let told = |events: &[polyscene::sim::Event]| -> Vec<_> {
+        impacts(events)
+            .iter()
+            .map(|hit| (hit.time.to_bits(), hit.point.to_array().map(f64::to_bits)))
+            .collect()
+    };
+    assert!(told(&expected).len() >= 2);
+    assert_eq!(told(&events), told(&expected));
+    assert_eq!(state_of(&sim, 2).position, state_of(&other, 2).position);
+    // And all of them taken away at once.
+    let gone: Vec<SimEdit> = (0..400).map(|k| SimEdit::Remove(NodeKey(10 + k))).collect();
+    assert!(sim.apply_all(&gone).iter().all(Result::is_ok));
+    assert_eq!((sim.static_count(), sim.find(NodeKey(10)), sim.find(NodeKey(2)).is_some()), (0, None, true));
 }

@@ -38,9 +38,10 @@ impl Grid {
     }
 
     /// The same map with its tiles merged 2×2×2.
-    pub fn coarser(&self, map: &Map) -> Self {
+    pub fn coarser(&self) -> Self {
+        let size = self.tile_size * DVec3::from_array(self.counts.map(f64::from));
         let counts = self.counts.map(|count| count.div_ceil(2));
-        Self { tile_size: map.size / DVec3::from_array(counts.map(f64::from)), counts }
+        Self { tile_size: size / DVec3::from_array(counts.map(f64::from)), counts }
     }
 
     pub fn all(&self) -> TileRange {

@@ -5,7 +5,6 @@ use rustc_hash::FxHashMap;
 
 use super::bricks::{BrickTile, for_each_brick, slots};
 use super::grid::{Grid, TileRange};
-use crate::scene::Map;
 use crate::sim::body::{Bodies, BodyId};
 use crate::sim::shape::Convex;
 
@@ -38,11 +37,11 @@ const LISTINGS_PER_BODY: u64 = 64;
 
 /// Merges tiles as long as the static bodies would be listed too often in all. Results do not depend on the grid.
 /// What fills the grid's whole box does not count, for that no grid helps.
-pub(in crate::sim) fn coarse_enough(mut grid: Grid, map: &Map, bodies: &Bodies, tile_limit: u64) -> Grid {
+pub(in crate::sim) fn coarse_enough(mut grid: Grid, bodies: &Bodies, tile_limit: u64) -> Grid {
     let count = bodies.dynamic().len() + bodies.static_len();
     let most = FREE_LISTINGS + LISTINGS_PER_BODY * count as u64;
     while grid.counts != [1; 3] && listings(&grid, bodies, tile_limit) > most {
-        grid = grid.coarser(map);
+        grid = grid.coarser();
     }
     grid
 }
@@ -167,7 +166,7 @@ mod tests {
 
     use super::*;
     use crate::random::Random;
-    use crate::scene::NodeKey;
+    use crate::scene::{Map, NodeKey};
     use crate::sim::body::{Body, Identity};
     use crate::sim::shape::{Plate, Shape, Sphere};
 
@@ -279,7 +278,7 @@ mod tests {
             let at = 500.0 + random.vector(500.0);
             add(&mut bodies, at, Shape::Sphere(Sphere { radius: 0.1 + random.unit() }));
         }
-        let grid = coarse_enough(fine, &map, &bodies, 4096);
+        let grid = coarse_enough(fine, &bodies, 4096);
         let tiles = StaticTiles::new(&grid, &bodies, 4096);
         let most = FREE_LISTINGS + 20_000 * LISTINGS_PER_BODY;
         assert!(tiles.items.len() as u64 <= most, "{} listings, {most} at most", tiles.items.len());
@@ -287,6 +286,6 @@ mod tests {
         assert!(tiles.large().is_empty());
 
         let few = only(DVec3::splat(500.0), Shape::Sphere(Sphere { radius: 5.0 }));
-        assert_eq!(coarse_enough(fine, &map, &few, 4096), fine);
+        assert_eq!(coarse_enough(fine, &few, 4096), fine);
     }
 }
