@@ -176,7 +176,7 @@ fn vector(value: glam::DVec3, size: f64) -> String {
     if !value.is_finite() {
         return String::new();
     }
-    let rounding = 1e-12 * size.max(1.0);
+    let rounding = 1e-12 * size;
     let clean = |value: f64| if value.abs() < rounding { 0.0 } else { value };
     value.to_array().map(|part| significant(clean(part), 5)).join(", ")
 }

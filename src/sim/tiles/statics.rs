@@ -155,7 +155,8 @@ fn margin(low: DVec3, high: DVec3) -> f64 {
 fn touches(grid: &Grid, tile: [u32; 3], (shape, at): (&dyn Convex, DVec3), margin: f64) -> bool {
     let (body_low, body_high) = shape.bounds(at);
     let (low, high) = grid.bounds(&TileRange { low: tile, high: tile });
-    shape.touches_box(at, low.max(body_low - 1.0) - margin, high.min(body_high + 1.0) + margin)
+    let beyond = (body_high - body_low).max_element();
+    shape.touches_box(at, low.max(body_low - beyond) - margin, high.min(body_high + beyond) + margin)
 }
 
 #[cfg(test)]
@@ -185,8 +186,8 @@ mod tests {
         );
     }
 
-    fn random_plate(random: &mut Random) -> (Bodies, Plate) {
-        let center = 5.0 + random.vector(7.0);
+    fn random_plate(random: &mut Random, scale: f64) -> (Bodies, Plate) {
+        let center = scale * (5.0 + random.vector(7.0));
         let turn = random.vector(3.0);
         let frame = DQuat::from_scaled_axis(turn);
         let plate = Plate {
@@ -194,8 +195,8 @@ mod tests {
             axis_x: frame * DVec3::X,
             axis_y: frame * DVec3::Y,
             normal: frame * DVec3::Z,
-            half_x: 0.05 + 4.0 * random.unit(),
-            half_y: 0.05 + 4.0 * random.unit(),
+            half_x: scale * (0.05 + 4.0 * random.unit()),
+            half_y: scale * (0.05 + 4.0 * random.unit()),
         };
         (only(center, Shape::Plate(Box::new(plate))), plate)
     }
@@ -204,10 +205,12 @@ mod tests {
     #[test]
     fn plates_are_in_the_tiles_they_touch_and_in_no_others() {
         let mut random = Random::new(7);
-        for counts in [[1, 1, 1], [10, 10, 10], [7, 31, 3]] {
-            let grid = Grid::new(&Map { size: DVec3::splat(10.0), tiles: counts }, 0.0);
+        for (counts, scale) in
+            [([1, 1, 1], 1.0), ([10, 10, 10], 1.0), ([10, 10, 10], 1e-14), ([7, 31, 3], 1.0)]
+        {
+            let grid = Grid::new(&Map { size: DVec3::splat(10.0 * scale), tiles: counts }, 0.0);
             for _ in 0..60 {
-                let (bodies, plate) = random_plate(&mut random);
+                let (bodies, plate) = random_plate(&mut random, scale);
                 let tiles = StaticTiles::new(&grid, &bodies, 1_000_000);
                 for _ in 0..300 {
                     let u = plate.half_x * (2.0 * random.unit() - 1.0);
