@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use glam::DVec3;
+use rustc_hash::FxHashSet;
 
 use super::data::{Dense, Member, Role};
 use super::tolerance::SAME_COMPONENT;
@@ -23,9 +24,9 @@ pub(in crate::sim) fn component(
     time: f64,
 ) -> Vec<u32> {
     let mut bodies: Vec<u32> = Vec::new();
-    let mut seen = vec![false; state.segments.len()];
+    let mut seen = FxHashSet::default();
     let mut see = |body: u32, bodies: &mut Vec<u32>| {
-        if !dense.is_member(body) && !std::mem::replace(&mut seen[body as usize], true) {
+        if !dense.is_member(body) && seen.insert(body) {
             bodies.push(body);
         }
     };

@@ -32,7 +32,12 @@ pub(super) fn leave(model: &Model, state: &mut State, dense: &mut Dense, time: f
             && state.segments[member.body as usize].end <= time
     };
     let slots: Vec<usize> = (0..dense.members.len()).filter(|slot| leaves(*slot)).collect();
-    let left: Vec<Left> = slots.iter().map(|slot| lifted(model, state, dense, *slot, time)).collect();
+    let beside = fixed_beside(dense, &slots);
+    let left: Vec<Left> = slots
+        .iter()
+        .zip(&beside)
+        .map(|(slot, beside)| lifted(model, state, dense.members[*slot].body, beside, time))
+        .collect();
     let bodies: Vec<u32> = left.iter().map(|left| left.body).collect();
     for left in &left {
         register_within(model, state, left.body, left.x, model.radius(left.body));
@@ -41,13 +46,26 @@ pub(super) fn leave(model: &Model, state: &mut State, dense: &mut Dense, time: f
     left
 }
 
+/// What does not move beside each of some members, whose places are in order; each in the order of the list.
+fn fixed_beside(dense: &Dense, slots: &[usize]) -> Vec<Vec<BodyId>> {
+    let mut beside = vec![Vec::new(); slots.len()];
+    if slots.is_empty() {
+        return beside;
+    }
+    for listed in dense.pairs.iter().filter(|listed| listed.slots[1] == FIXED) {
+        let slot = listed.slots[0] as usize;
+        if let Ok(nth) = slots.binary_search(&slot) {
+            beside[nth].push(listed.pair.other(dense.members[slot].body));
+        }
+    }
+    beside
+}
+
 /// Where a member leaves from: out of what it overlaps, which is booked.
-fn lifted(model: &Model, state: &mut State, dense: &Dense, slot: usize, time: f64) -> Left {
-    let body = dense.members[slot].body;
+fn lifted(model: &Model, state: &mut State, body: u32, beside: &[BodyId], time: f64) -> Left {
     let (from, v) = (state.position(body, time), state.velocity(body, time));
     let mut x = from;
-    for listed in dense.pairs.iter().filter(|listed| listed.slots == [slot as u32, FIXED]) {
-        let other = listed.pair.other(body);
+    for other in beside.iter().copied() {
         let near = model.body(other).shape.convex().nearest(state.path_of(model, other).segment.x, x);
         let depth = model.radius(body) - near.distance;
         if depth > 0.0 {
