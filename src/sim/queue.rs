@@ -180,31 +180,40 @@ mod tests {
         Predicted { time, kind: Kind::Impact, a, b: BodyId::of_dynamic(a + 1), stamp_a, stamp_b: 0 }
     }
 
-    /// Random pushes, pops and changes of stamps, against a list that is searched anew each time.
+    const BODIES: usize = 2000;
+
+    /// Random pushes, pops and changes of stamps, against a list that is searched anew each time; of so many bodies that most
+    /// of what is predicted lies in no order.
     #[test]
     fn gives_what_a_searched_list_gives() {
         let mut source = Random::new(1);
         let mut random = move |below: usize| source.below(below);
         let mut queue = Queue::default();
         let mut list: Vec<Predicted> = Vec::new();
-        let mut stamps = [0_u32; 50];
-        let mut popped = 0;
-        for _ in 0..60_000 {
-            match random(4) {
-                0 | 1 => {
-                    let body = random(50) as u32;
+        let mut stamps = [0_u32; BODIES];
+        let (mut popped, mut pushed_far, mut ran_out) = (0, 0, 0);
+        for step in 0..60_000 {
+            // It fills, and is emptied, by turns.
+            let pushes = if step / 6000 % 2 == 0 { 12 } else { 3 };
+            match random(16) {
+                kind if kind < pushes => {
+                    let body = random(BODIES) as u32;
                     // Few different times, so that ties are common.
                     let next = predicted(random(40) as f64 * 0.25, body, stamps[body as usize]);
+                    let far = queue.far.len();
                     queue.push(next);
+                    pushed_far += queue.far.len() - far;
                     list.push(next);
                 }
-                2 => stamps[random(50)] += 1,
+                kind if kind == pushes => stamps[random(BODIES)] += 1,
                 _ => {
                     let until = random(60) as f64 * 0.25;
                     let holds = |p: &Predicted| stamps[p.a as usize] == p.stamp_a;
                     list.retain(holds);
                     let first = list.iter().copied().filter(|p| p.time <= until).min_by(Predicted::key_order);
+                    let far = queue.far.len();
                     assert_eq!(queue.pop(until, &mut 0, holds), first);
+                    ran_out += usize::from(queue.far.len() < far);
                     if let Some(first) = first {
                         let at = list.iter().position(|p| *p == first).unwrap();
                         list.remove(at);
@@ -214,7 +223,11 @@ mod tests {
                 }
             }
         }
-        assert!(popped > 1000, "the test must exercise the queue: {popped}");
+        let exercised = [popped, pushed_far, ran_out];
+        assert!(
+            popped > 1000 && pushed_far > 1000 && ran_out > 10,
+            "the test must exercise the queue: {exercised:?}"
+        );
     }
 
     #[test]
