@@ -126,7 +126,7 @@ pub struct AngularMomentum {
 pub struct Counters {
     /// Ledger rows by kind, in the order of [`super::EventKind::ALL`].
     pub events: [u64; 11],
-    /// Pairs whose time of impact was computed.
+    /// Pairs whose time of impact was looked for: of most of them a bound told that they miss each other.
     pub pair_tests: u64,
     /// Times a body moved to other tiles.
     pub tile_crossings: u64,

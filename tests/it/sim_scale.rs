@@ -3,8 +3,9 @@
 
 use glam::DVec3;
 use polyscene::scene::{ForceKind, Motion, Scene, Shape};
-use polyscene::sim::Event;
+use polyscene::sim::{Event, EventKind};
 
+use crate::common::build::{Build, Shaped, ball, empty};
 use crate::common::drive::{Run, Sampling, run};
 use crate::common::load::load;
 
@@ -173,4 +174,22 @@ fn scaled_scenes_give_the_scaled_bits_3() {
 fn large_scenes_give_the_scaled_bits() {
     // What is poured is stepped from 0.11 s on.
     assert_scales(scenes(true).into_iter(), 0.125);
+}
+
+/// A heap of lossy balls that nothing drives, struck by one, is stepped: how long a step is must come from motion.
+#[test]
+fn a_heap_without_forces_gives_the_scaled_bits() {
+    let heap = (0..80_i64).map(|k| {
+        let cell = DVec3::new((k % 4) as f64, (k / 4 % 4) as f64, (k / 16) as f64);
+        ball(k + 1, DVec3::splat(3.0) + cell, DVec3::ZERO).bounce(0.2)
+    });
+    let scene = heap.fold(empty(), Build::body);
+    let scene = scene.body(ball(81, DVec3::new(1.5, 4.25, 5.25), 4.0 * DVec3::X).bounce(0.2));
+    let plain = run(&scene, 0.5, Sampling::Every(0.5));
+    assert!(plain.events.iter().any(|event| event.kind == EventKind::Dense), "{} events", plain.events.len());
+    for scale in scales() {
+        let until = 0.5 * scale.time;
+        let scaled = run(&scale.scene(&scene), until, Sampling::Every(until));
+        assert_eq!(difference(&plain, &scaled, scale), None, "{scale:?}");
+    }
 }
