@@ -21,7 +21,7 @@ use super::body::BodyId;
 use super::constraint::enter_none;
 use super::geometry::{BodiesAt, contact_distance, gap_of, larger_radius, restitution_at, surface_of};
 use super::island::Island;
-use super::link::{Link, renumber};
+use super::link::{Link, Solved, renumber};
 use super::model::Model;
 use super::nearest::nearest;
 use super::neighbours::near;
@@ -46,6 +46,8 @@ pub(super) struct Group {
     pub loss: f64,
     /// In how many its contacts were resolved.
     pub rounds: u32,
+    /// How often velocities were taken that not all contacts allow, for the search for better ones was given up.
+    pub given_up: u64,
     /// Angular velocities, rad/s; none where nothing rubs.
     pub spins: Vec<DVec3>,
 }
@@ -98,7 +100,7 @@ impl Group {
         let bodies = Island::at(model, state, ids, time);
         let members = pairs.into_iter().map(|pair| member(model, state, &bodies, pair, time)).collect();
         let fastest = bodies.v.iter().map(|v| v.length()).fold(0.0, f64::max);
-        Self { bodies, members, time, fastest, loss: 0.0, rounds: 0, spins: Vec::new() }
+        Self { bodies, members, time, fastest, loss: 0.0, rounds: 0, given_up: 0, spins: Vec::new() }
     }
 
     /// The contacts as bounds on accelerations at the present velocities.
@@ -210,7 +212,8 @@ impl Group {
         let bodies = renumber(&mut links);
         let inverse_mass: Vec<f64> = bodies.iter().map(|body| self.bodies.inverse_mass[*body]).collect();
         let mut plastic: Vec<DVec3> = bodies.iter().map(|body| self.bodies.v[*body]).collect();
-        let multipliers = enter_none(&links, &inverse_mass, &mut plastic).multipliers;
+        let Solved { multipliers, is_unmet, .. } = enter_none(&links, &inverse_mass, &mut plastic);
+        self.given_up += u64::from(is_unmet);
         let energies: Vec<f64> =
             multipliers.iter().zip(&closing).map(|(multiplier, closing)| multiplier * closing).collect();
         let restitution = self.shared_restitution(contacts, &energies);
@@ -259,11 +262,12 @@ impl Group {
     pub fn levelled(&self, lasts: &[bool]) -> Levelled {
         let links: Vec<Link> = self.members.iter().map(|member| member.link).collect();
         let mut velocities = self.bodies.v.clone();
-        let impulses = nearest(&links, lasts, &self.bodies.inverse_mass, &mut velocities).multipliers;
-        Levelled { velocities, impulses }
+        let solved = nearest(&links, lasts, &self.bodies.inverse_mass, &mut velocities);
+        Levelled { velocities, impulses: solved.multipliers, is_unmet: solved.is_unmet }
     }
 
     pub fn bring_to(&mut self, levelled: Levelled) {
+        self.given_up += u64::from(levelled.is_unmet);
         for (member, impulse) in self.members.iter_mut().zip(levelled.impulses) {
             member.impulse += impulse;
         }
@@ -294,6 +298,8 @@ pub(super) struct Levelled {
     pub velocities: Vec<DVec3>,
     /// N·s.
     pub impulses: Vec<f64>,
+    /// Whether the search for them was given up.
+    pub is_unmet: bool,
 }
 
 /// Contacts of one body: lasting ones, bodies that lie against it, and impacts of this instant.

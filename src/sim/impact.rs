@@ -254,6 +254,7 @@ fn book(state: &mut State, group: &Group, before: &[DVec3]) {
         }
     }
     state.account.impact_losses.add(group.loss);
+    state.counters.given_up += group.given_up;
 }
 
 /// Angular momentum that bodies which stay gave or took.

@@ -197,6 +197,7 @@ pub(super) fn begin_island(
     let links = island.links(model);
     let mut accelerations = island.free(model, time);
     let solved = enter_none(&links, &island.inverse_mass, &mut accelerations);
+    state.counters.given_up += u64::from(solved.is_unmet);
     let goes_on = is_still(model, island, &accelerations) || is_steady(model, island, &links, &accelerations);
     let steps: Vec<Step> = if goes_on {
         let rows = island.x.iter().zip(&island.v).zip(&accelerations);

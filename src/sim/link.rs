@@ -23,6 +23,8 @@ pub(super) struct Solved {
     pub multipliers: Vec<f64>,
     /// Length of all that the motion of each body is the sum of: what is left is known to some roundings of it.
     pub sizes: Vec<f64>,
+    /// Whether the search was given up before all links were within their limits.
+    pub is_unmet: bool,
 }
 
 impl Solved {

@@ -54,7 +54,7 @@ impl Loads {
         for ((w, found), size) in motion.iter_mut().zip(&at.motion).zip(&at.sizes) {
             *w = if found.length() <= LEFT_OVER * size.max(at.least) { DVec3::ZERO } else { *found };
         }
-        Some(Solved { multipliers: self.multipliers.clone(), sizes: at.sizes })
+        Some(Solved { multipliers: self.multipliers.clone(), sizes: at.sizes, is_unmet: false })
     }
 
     /// The same where digits lost to loads that exceed the motion by far do no harm.

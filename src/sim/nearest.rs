@@ -28,7 +28,7 @@ pub(super) fn nearest_from(
     };
     if (0..links.len()).all(met) {
         let sizes = motion.iter().map(|w| w.length()).collect();
-        return Solved { multipliers: vec![0.0; links.len()], sizes };
+        return Solved { multipliers: vec![0.0; links.len()], sizes, is_unmet: false };
     }
     if links.len() > FEW_LINKS {
         let problem = Problem { links, both, inverse_mass };

@@ -47,6 +47,7 @@ pub(super) fn begin_on_face(
     level(model, state, island);
     let mut accelerations = island.free(model, time);
     let solved = enter_none(&island.links(model), &island.inverse_mass, &mut accelerations);
+    state.counters.given_up += u64::from(solved.is_unmet);
     let on = OnFace {
         body,
         time,

@@ -16,7 +16,7 @@ use super::tolerance::{DEPENDENT, ENTERING, LEFT_OVER, ONE_DIRECTION, SHARING};
 /// neither enter nor leave.
 pub(super) fn search(links: &[Link], both: &[bool], inverse_mass: &[f64], motion: &mut [DVec3]) -> Solved {
     let mut search = ActiveSet::new(links, both, inverse_mass, motion, 0.0);
-    search.run();
+    let is_unmet = !search.run();
     let mut multipliers = search.multipliers();
     if search.has_shared_loads() {
         let mut shared = ActiveSet::new(links, both, inverse_mass, motion, SHARING);
@@ -26,7 +26,7 @@ pub(super) fn search(links: &[Link], both: &[bool], inverse_mass: &[f64], motion
     for ((w, found), size) in motion.iter_mut().zip(&search.at).zip(&search.sizes) {
         *w = if found.length() <= LEFT_OVER * size { DVec3::ZERO } else { *found };
     }
-    Solved { multipliers, sizes: search.sizes }
+    Solved { multipliers, sizes: search.sizes, is_unmet }
 }
 
 /// What a unit of force at each link changes there while all the others of the set hold; where these would
@@ -121,7 +121,8 @@ impl<'a> ActiveSet<'a> {
         }
     }
 
-    fn run(&mut self) {
+    /// Whether all are met, but for those that nothing could meet any better.
+    fn run(&mut self) -> bool {
         for k in (0..self.links.len()).filter(|k| self.both[*k]) {
             // Those that are met already too: the next ones must not undo them.
             self.meet(k, self.excess(k).signum());
@@ -129,9 +130,11 @@ impl<'a> ActiveSet<'a> {
         // Each bound added moves the motion away from its start, so none is met twice in the same company.
         for _ in 0..8 * self.links.len() + 8 {
             self.clean();
-            let Some(worst) = self.worst() else { return };
+            let Some(worst) = self.worst() else { return true };
             self.meet(worst, 1.0);
         }
+        self.clean();
+        self.worst().is_none()
     }
 
     fn multipliers(&self) -> Vec<f64> {

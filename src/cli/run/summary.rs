@@ -8,7 +8,7 @@ use super::drive::Ending;
 use crate::cli::samples::SampleGrid;
 use crate::cli::{CliError, output};
 use crate::scene::Map;
-use crate::sim::{Energy, EventKind, Plan, Simulation};
+use crate::sim::{Energy, EventKind, Method, Plan, Simulation};
 
 /// The object that `--json` prints. What cannot be computed is `null`.
 #[derive(Serialize)]
@@ -185,8 +185,12 @@ impl<'a> Summary<'a> {
             line(&mut text, "outside", &format!("the map: {} of {bodies} moving bodies", self.outside_map));
         }
         if self.work.given_up > 0 {
-            let given_up = format!("{} times: a Δt ran into its limit of collisions", self.work.given_up);
-            line(&mut text, "given up", &given_up);
+            let what = if self.method == Method::Exact.name() {
+                "the search for motions that all contacts allow ran into its limit of rounds"
+            } else {
+                "a Δt ran into its limit of collisions"
+            };
+            line(&mut text, "given up", &format!("{} times: {what}", self.work.given_up));
         }
         line(&mut text, "plan", &self.plan.for_people());
         for (nth, what) in self.plan.left_out.iter().enumerate() {
