@@ -12,18 +12,12 @@ use super::rub::inertia;
 use super::state::State;
 use super::turn::{Hold, Rubbing};
 
-/// Velocity of a body at a time, m/s: as books have it, or as people are told, which differs where bodies are stepped.
-type VelocityOf = fn(&State, u32, f64) -> DVec3;
-
-const BOOKED: VelocityOf = State::velocity;
-const TOLD: VelocityOf = State::told_velocity;
-
 /// Kinetic and potential energy now, J.
-fn energies(model: &Model, state: &State, time: f64, velocity: VelocityOf) -> (f64, Option<f64>) {
+pub(super) fn energies(model: &Model, state: &State, time: f64) -> (f64, Option<f64>) {
     let mut kinetic = Sum::default();
     let mut potential = Some(Sum::default());
     for body in model.present() {
-        kinetic.add(0.5 * model.mass(body) * velocity(state, body, time).length_squared());
+        kinetic.add(0.5 * model.mass(body) * state.velocity(body, time).length_squared());
         if model.plan.spin {
             kinetic.add(kinetic_of_spin(model, state, body, time));
         }
@@ -48,12 +42,11 @@ fn kinetic_of_spin(model: &Model, state: &State, body: u32, time: f64) -> f64 {
     0.5 * inertia(model, body) * state.spin(body, time).length_squared()
 }
 
-/// Momentum now, and Σ m|v|, kg·m/s.
-fn momentum_value(model: &Model, state: &State, time: f64, velocity: VelocityOf) -> (DVec3, f64) {
+pub(super) fn momentum_value(model: &Model, state: &State, time: f64) -> (DVec3, f64) {
     let mut sum = VectorSum::default();
     let mut scale = Sum::default();
     for body in model.present() {
-        let momentum = model.mass(body) * velocity(state, body, time);
+        let momentum = model.mass(body) * state.velocity(body, time);
         sum.add(momentum);
         scale.add(momentum.length());
     }
@@ -61,46 +54,33 @@ fn momentum_value(model: &Model, state: &State, time: f64, velocity: VelocityOf)
 }
 
 /// Angular momentum about the origin of the map, and Σ m|x||v| + I|ω|; nothing where nothing rubs.
-fn angular_value(model: &Model, state: &State, time: f64, velocity: VelocityOf) -> (DVec3, f64) {
+pub(super) fn angular_value(model: &Model, state: &State, time: f64) -> (DVec3, f64) {
     let mut sum = VectorSum::default();
     let mut scale = Sum::default();
     if !model.plan.spin {
         return (DVec3::ZERO, 0.0);
     }
     for body in model.present() {
-        let momentum = model.mass(body) * velocity(state, body, time);
-        let orbit = angular(state.position(body, time), momentum);
-        let spin = inertia(model, body) * state.spin(body, time);
+        let (orbit, spin) = angular_of(model, state, body, time);
         sum.add(orbit);
         sum.add(spin);
-        let way = momentum.length();
+        let way = model.mass(body) * state.velocity(body, time).length();
         scale.add(state.position(body, time).length() * way + spin.length());
     }
     (sum.value(), scale.value())
 }
 
-/// What the books are about, now.
-pub(super) struct Totals {
-    /// Kinetic, and potential as far as forces have one, J.
-    pub energy: f64,
-    pub momentum: DVec3,
-    pub angular: DVec3,
-}
-
-pub(super) fn totals(model: &Model, state: &State, time: f64) -> Totals {
-    let (kinetic, potential) = energies(model, state, time, BOOKED);
-    Totals {
-        energy: kinetic + potential.unwrap_or(0.0),
-        momentum: momentum_value(model, state, time, BOOKED).0,
-        angular: angular_value(model, state, time, BOOKED).0,
-    }
+/// m x×v and I ω of a body.
+fn angular_of(model: &Model, state: &State, body: u32, time: f64) -> (DVec3, DVec3) {
+    let orbit = angular(state.position(body, time), model.mass(body) * state.velocity(body, time));
+    (orbit, inertia(model, body) * state.spin(body, time))
 }
 
 /// Opens the books at the present state.
 pub(super) fn open(model: &Model, state: &mut State) {
-    let (kinetic, potential) = energies(model, state, state.now, BOOKED);
-    let (momentum, scale) = momentum_value(model, state, state.now, BOOKED);
-    let (at_start, angular_scale) = angular_value(model, state, state.now, BOOKED);
+    let (kinetic, potential) = energies(model, state, state.now);
+    let (momentum, scale) = momentum_value(model, state, state.now);
+    let (at_start, angular_scale) = angular_value(model, state, state.now);
     state.account = Account {
         energy_at_start: kinetic + potential.unwrap_or(0.0),
         kinetic_at_start: kinetic,
@@ -142,7 +122,7 @@ fn potential(model: &Model, subject: &Subject<'_>) -> Option<f64> {
 }
 
 pub(super) fn energy(model: &Model, state: &State) -> Energy {
-    let (kinetic, potential) = energies(model, state, state.now, BOOKED);
+    let (kinetic, potential) = energies(model, state, state.now);
     let total = potential.map(|potential| kinetic + potential);
     let account = &state.account;
     let residual = total.filter(|_| !account.unknown_work).map(|total| {
@@ -160,23 +140,14 @@ pub(super) fn energy(model: &Model, state: &State) -> Energy {
         let scale = account.energy_at_start.abs().max(account.kinetic_at_start).max(kinetic).max(turned_over);
         relative(sum.value(), scale)
     });
-    if state.is_stepped() {
-        let (kinetic, potential) = energies(model, state, state.now, TOLD);
-        return Energy {
-            kinetic,
-            potential,
-            total: potential.map(|potential| kinetic + potential),
-            residual,
-        };
-    }
     Energy { kinetic, potential, total, residual }
 }
 
 pub(super) fn momentum(model: &Model, state: &State) -> Momentum {
-    let (booked, scale) = momentum_value(model, state, state.now, BOOKED);
+    let (value, scale) = momentum_value(model, state, state.now);
     let account = &state.account;
     let mut sum = VectorSum::default();
-    sum.add(booked);
+    sum.add(value);
     sum.add(-account.momentum_at_start);
     sum.add(-account.impulses.value());
     sum.add(-account.force_impulse.value());
@@ -185,16 +156,14 @@ pub(super) fn momentum(model: &Model, state: &State) -> Momentum {
     }
     let turned_over = account.impulses.value().length().max(account.force_impulse.value().length());
     let scale = scale.max(account.momentum_scale).max(turned_over);
-    let is_told = state.is_stepped();
-    let value = if is_told { momentum_value(model, state, state.now, TOLD).0 } else { booked };
     Momentum { value, residual: relative(sum.value().length(), scale) }
 }
 
 pub(super) fn angular_momentum(model: &Model, state: &State) -> AngularMomentum {
-    let (booked, scale) = angular_value(model, state, state.now, BOOKED);
+    let (value, scale) = angular_value(model, state, state.now);
     let account = &state.account.angular;
     let mut sum = VectorSum::default();
-    sum.add(booked);
+    sum.add(value);
     sum.add(-account.at_start);
     sum.add(-account.impulses.value());
     sum.add(-account.torque_impulse.value());
@@ -203,8 +172,6 @@ pub(super) fn angular_momentum(model: &Model, state: &State) -> AngularMomentum 
     }
     let turned_over = account.impulses.value().length().max(account.torque_impulse.value().length());
     let scale = scale.max(account.scale).max(turned_over);
-    let is_told = state.is_stepped();
-    let value = if is_told { angular_value(model, state, state.now, TOLD).0 } else { booked };
     AngularMomentum { value, residual: relative(sum.value().length(), scale) }
 }
 

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::body::BodyId;
-use super::books::{Totals, book_segment, totals};
+use super::books::{angular_value, book_segment, energies, momentum_value};
 use super::compile::{check_force, check_roughness, compile_body};
 use super::dense::set_step;
 use super::drive::begin_all;
@@ -33,7 +33,7 @@ pub(super) fn apply(
     edits: &[SimEdit],
     outcomes: &mut Vec<Result<(), EditRefused>>,
 ) -> Result<(), EditRefused> {
-    let before = close(model, state);
+    let before = Books::read(model, state);
     let (mut subjects, mut after) = (Vec::new(), Aftermath::default());
     for edit in edits {
         outcomes.push(change(model, state, &mut after, edit).map(|subject| subjects.push(subject)));
@@ -107,7 +107,7 @@ pub(super) fn add_custom(
     state: &mut State,
     force: Arc<dyn Force>,
 ) -> Result<(), EditRefused> {
-    let before = close(model, state);
+    let before = Books::read(model, state);
     ForceEntry::custom(force).put_into(&mut model.forces);
     plan_anew(model, state);
     restart_all(model, state, &before, &[None]).map_err(|fault| EditRefused(fault.to_string()))
@@ -121,7 +121,7 @@ pub(super) fn remove_custom(
 ) -> Result<bool, EditRefused> {
     let is_it = |entry: &ForceEntry| matches!(&entry.law, Law::Custom(other) if Arc::ptr_eq(other, force));
     let Some(index) = model.forces.iter().position(is_it) else { return Ok(false) };
-    let before = close(model, state);
+    let before = Books::read(model, state);
     model.forces.remove(index);
     plan_anew(model, state);
     restart_all(model, state, &before, &[None]).map_err(|fault| EditRefused(fault.to_string()))?;
@@ -141,14 +141,27 @@ fn plan_anew(model: &mut Model, state: &mut State) {
     }
 }
 
-/// Books all segments up to now, under the forces of before an edit, and ends them; what there was then.
-fn close(model: &Model, state: &mut State) -> Totals {
-    let time = state.now;
-    for body in model.present() {
-        book_segment(model, state, body, time);
-        cut(state, body, time);
+/// Energy and momentum before an edit. The segments' work must be booked under the old forces.
+struct Books {
+    energy: f64,
+    momentum: DVec3,
+    angular: DVec3,
+}
+
+impl Books {
+    fn read(model: &Model, state: &mut State) -> Self {
+        let time = state.now;
+        for body in model.present() {
+            book_segment(model, state, body, time);
+            cut(state, body, time);
+        }
+        let (kinetic, potential) = energies(model, state, time);
+        Self {
+            energy: kinetic + potential.unwrap_or(0.0),
+            momentum: momentum_value(model, state, time).0,
+            angular: angular_value(model, state, time).0,
+        }
     }
-    totals(model, state, time)
 }
 
 /// Shortens a body's past: its segment starts now, as a point. A new one is begun at once.
@@ -163,14 +176,15 @@ fn cut(state: &mut State, body: u32, time: f64) {
 fn restart_all(
     model: &Model,
     state: &mut State,
-    before: &Totals,
+    before: &Books,
     changed: &[Option<BodyId>],
 ) -> Result<(), Fault> {
     let time = state.now;
-    let now = totals(model, state, time);
-    state.account.edit_work.add(now.energy - before.energy);
-    state.account.impulses.add(now.momentum - before.momentum);
-    state.account.angular.impulses.add(now.angular - before.angular);
+    let (kinetic, potential) = energies(model, state, time);
+    state.account.edit_work.add(kinetic + potential.unwrap_or(0.0) - before.energy);
+    let momentum = momentum_value(model, state, time).0;
+    state.account.impulses.add(momentum - before.momentum);
+    state.account.angular.impulses.add(angular_value(model, state, time).0 - before.angular);
     for changed in changed {
         let place = changed.map_or(DVec3::ZERO, |body| state.path_of(model, body).segment.x);
         let subject = changed.map_or(BodyRef::NONE, BodyId::to_ref);

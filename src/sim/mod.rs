@@ -59,7 +59,6 @@ mod contact;
 mod open_step;
 mod pair;
 mod place;
-mod push;
 mod queue;
 mod segment;
 mod state;

@@ -201,8 +201,8 @@ impl Simulation {
         let (path, now) = (self.state.path(index), self.state.now);
         Some(BodyState {
             position: path.position(now),
-            velocity: self.state.told_velocity(index, now),
-            acceleration: self.state.told_acceleration(index, now),
+            velocity: path.velocity(now),
+            acceleration: path.acceleration(now),
             contact: self.state.contact_state(index, now),
             turn: self
                 .state

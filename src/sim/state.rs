@@ -12,12 +12,11 @@ use super::event::Event;
 use super::model::Model;
 use super::open_step::OpenStep;
 use super::pair::Pair;
-use super::push::Push;
 use super::queue::{Kind, Predicted, Queue};
 use super::report::{ContactState, Counters};
 use super::segment::{Path, Segment, Series};
 use super::tiles::{DynamicTiles, TileRange};
-use super::trace::{Held, How, Trace};
+use super::trace::{Held, Trace};
 use super::turn::{Hold, Turn};
 use super::way_in::Plunge;
 
@@ -259,28 +258,6 @@ impl State {
         self.held(body).state(path.velocity(time), path.acceleration(time))
     }
 
-    /// Velocity of a body at a time as people are told, m/s: see [`Push`].
-    pub fn told_velocity(&self, body: u32, time: f64) -> DVec3 {
-        let velocity = self.velocity(body, time);
-        self.push(body).map_or(velocity, |push| push.velocity(velocity, time))
-    }
-
-    /// The same for its acceleration, m/s².
-    pub fn told_acceleration(&self, body: u32, time: f64) -> DVec3 {
-        let acceleration = self.path(body).acceleration(time);
-        self.push(body).map_or(acceleration, |push| push.acceleration(acceleration))
-    }
-
-    /// Whether anybody is stepped now.
-    pub fn is_stepped(&self) -> bool {
-        self.dense.as_ref().is_some_and(|dense| !dense.members.is_empty())
-    }
-
-    /// What contacts do to a body that is stepped.
-    fn push(&self, body: u32) -> Option<Push> {
-        self.dense.as_ref().and_then(|dense| dense.push_of(body))
-    }
-
     /// Notes the segment that a body has just begun, if the motion is recorded.
     pub fn note_begun(&mut self, body: u32) {
         if self.trace.is_on {
@@ -294,11 +271,7 @@ impl State {
     pub fn seal_trace(&mut self, event: u64, by_event: bool) {
         if self.trace.has_unsealed() {
             let mut trace = std::mem::take(&mut self.trace);
-            trace.seal(event, by_event, |body| How {
-                held: self.held(body),
-                push: self.push(body),
-                turn: self.turns.get(body as usize).copied(),
-            });
+            trace.seal(event, by_event, |body| (self.held(body), self.turns.get(body as usize).copied()));
             self.trace = trace;
         }
     }

@@ -4,7 +4,6 @@ use glam::DVec3;
 
 use super::event::BodyRef;
 use super::place::Place;
-use super::push::Push;
 use super::report::{BodyState, ContactState, Rotation};
 use super::segment::{Path, Segment, Series};
 use super::turn::{Hold, Turn};
@@ -20,8 +19,6 @@ pub struct Piece {
     /// Of integrated motion only; apart, since most have none.
     series: Option<Box<Integrated>>,
     held: Held,
-    /// Of a stepped body.
-    push: Option<Box<Push>>,
     /// Where bodies rub.
     turn: Option<Box<Turn>>,
 }
@@ -63,14 +60,6 @@ impl Held {
     }
 }
 
-/// How a body is held, pushed and turns while it follows a piece.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct How {
-    pub held: Held,
-    pub push: Option<Push>,
-    pub turn: Option<Turn>,
-}
-
 /// A piece of a body's motion, and from when on it is seen.
 #[derive(Clone, Debug)]
 pub struct Begun {
@@ -96,7 +85,7 @@ impl Piece {
     pub(super) fn new(path: Path<'_>) -> Self {
         let Segment { start, x, v, a, step, .. } = *path.segment;
         let series = path.series.map(|series| Box::new(Integrated { step, series: *series }));
-        Self { start, x, v, a, series, held: Held::Nothing, push: None, turn: None }
+        Self { start, x, v, a, series, held: Held::Nothing, turn: None }
     }
 
     /// Model time, s.
@@ -126,12 +115,9 @@ impl Piece {
 
     /// State of the body at a time while it follows this piece.
     pub fn at(&self, time: f64) -> BodyState {
-        let (position, mut velocity, mut acceleration) =
+        let (position, velocity, acceleration) =
             self.with_path(|path| (path.position(time), path.velocity(time), path.acceleration(time)));
         let contact = self.held.state(velocity, acceleration);
-        if let Some(push) = &self.push {
-            (velocity, acceleration) = (push.velocity(velocity, time), push.acceleration(acceleration));
-        }
         let turn = self
             .turn
             .as_ref()
@@ -147,8 +133,7 @@ impl Piece {
     pub fn bytes(&self) -> usize {
         let series = self.series.as_ref().map_or(0, |_| size_of::<Integrated>());
         let turn = self.turn.as_ref().map_or(0, |_| size_of::<Turn>());
-        let push = self.push.as_ref().map_or(0, |_| size_of::<Push>());
-        size_of::<Self>() + series + turn + push
+        size_of::<Self>() + series + turn
     }
 
     fn with_path<R>(&self, read: impl FnOnce(Path<'_>) -> R) -> R {
@@ -173,13 +158,12 @@ impl Trace {
 
     /// Labels what was begun since the last call with the event that it is seen from, and with how the bodies are held
     /// and turn.
-    pub fn seal(&mut self, event: u64, by_event: bool, how: impl Fn(u32) -> How) {
+    pub fn seal(&mut self, event: u64, by_event: bool, how: impl Fn(u32) -> (Held, Option<Turn>)) {
         for begun in self.begun.iter_mut().skip(self.sealed) {
             (begun.event, begun.by_event) = (event, by_event);
             if let BodyRef::Dynamic(body) = begun.body {
-                let How { held, push, turn } = how(body);
+                let (held, turn) = how(body);
                 begun.piece.held = held;
-                begun.piece.push = push.map(Box::new);
                 begun.piece.turn = turn.map(Box::new);
             }
         }

@@ -7,7 +7,6 @@ use super::rub::Rubbing;
 use super::stepped::{Contact, Near, Stepped};
 use super::sweep::System;
 use crate::sim::pair::Pair;
-use crate::sim::push::Push;
 
 /// What a dynamic body is to stepped groups.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -62,9 +61,6 @@ pub(in crate::sim) struct Member {
     pub has_company: bool,
     /// Whether its segment is one of a group, which is a step of the leapfrog.
     pub is_stepped: bool,
-    /// Acceleration by the contacts in the last step, m/s², and what is told of it.
-    pub pushed: DVec3,
-    pub push: Push,
     /// Steps without a force.
     pub idle: u32,
     /// Where it was when it last moved by more than what counts as still, m, and when, s.
@@ -192,12 +188,6 @@ impl Dense {
 
     pub fn role(&self, body: u32) -> Role {
         self.roles[body as usize]
-    }
-
-    /// What contacts do to a member.
-    pub fn push_of(&self, body: u32) -> Option<Push> {
-        let Role::Member(slot) = self.role(body) else { return None };
-        self.members.get(slot as usize).map(|member| member.push)
     }
 
     pub fn is_member(&self, body: u32) -> bool {

@@ -28,7 +28,6 @@ use crate::sim::motion::{check, place};
 use crate::sim::neighbours::{predict_all, predict_pair, reach_of};
 use crate::sim::pair::Pair;
 use crate::sim::predict;
-use crate::sim::push::Push;
 use crate::sim::segment::Segment;
 use crate::sim::shape::Surface;
 use crate::sim::state::State;
@@ -376,7 +375,7 @@ fn carry_out(
             state.give_spin(body.body, *spin);
         }
     }
-    for ((slot, body), moving) in slots.iter().zip(&work.bodies).zip(&work.system.moving) {
+    for (body, moving) in work.bodies.iter().zip(&work.system.moving) {
         let v = if body.inverse_mass > 0.0 { velocity(moving) - 0.5 * h * body.a } else { DVec3::ZERO };
         let segment =
             Segment { end: work.end, constrained: true, ..Segment::ballistic(time, body.x, v, body.a) };
@@ -384,10 +383,6 @@ fn carry_out(
         if body.kick != DVec3::ZERO {
             book_kick(model, state, body.body, time, body.kick, body.v - body.kick);
         }
-        let member = &mut dense.members[*slot as usize];
-        let pushed = (v - body.v) / h;
-        member.push = Push::of(member.pushed, pushed, time + 0.5 * h);
-        member.pushed = pushed;
         place(model, state, body.body, segment, None);
     }
     Ok(())

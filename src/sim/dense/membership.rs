@@ -11,7 +11,6 @@ use super::view::forget_forces;
 use crate::sim::body::BodyId;
 use crate::sim::model::Model;
 use crate::sim::neighbours::within;
-use crate::sim::push::Push;
 use crate::sim::state::State;
 
 /// Some bodies that are not stepped, with all that they touch, directly or through others, and that are not stepped
@@ -82,8 +81,6 @@ pub(super) fn take_in(state: &mut State, dense: &mut Dense, bodies: &[u32], time
             given: 0.0,
             has_company: false,
             is_stepped: false,
-            pushed: DVec3::ZERO,
-            push: Push::default(),
             idle: 0,
             anchor: x,
             still_since: time,
