@@ -70,12 +70,20 @@ impl Run {
 
     /// To a moment, if it is recorded.
     pub(super) fn go_to(&mut self, moment: Moment) {
-        if self.recording.from().is_not_after(moment) && moment.is_not_after(self.recording.end) {
+        let is_within = self.recording.from().is_not_after(moment) && moment.is_not_after(self.recording.end);
+        if is_within && self.is_of_its_event(moment) {
             self.show(moment, self.grid_at(moment));
         } else {
             let text = format!("event {} at {} s is not recorded", moment.event, moment.time);
             self.message = Some(text.into());
         }
+    }
+
+    /// Whether its event has happened at its time, and the one after it not before.
+    fn is_of_its_event(&self, moment: Moment) -> bool {
+        let time_of = |event| self.recording.ledger.get(event).map(|row| row.event.time);
+        time_of(moment.event).is_none_or(|time| time <= moment.time)
+            && time_of(moment.event.saturating_add(1)).is_none_or(|time| moment.time <= time)
     }
 
     /// To a time, if it is recorded; whether it is.

@@ -57,11 +57,13 @@ impl Run {
     fn replay(&mut self) {
         let end = self.step_end(self.at.time).max(self.at.time);
         let edit = self.next_edit().unwrap_or(f64::INFINITY);
+        let before = (self.at, self.applied);
         // A method that steps by Δt must know its end before it is asked to stop inside it.
         self.simulation.begin(end);
         self.simulation.begin(self.cursor.time.min(end).min(edit));
         let progress = self.simulation.work(PREDICTIONS);
         self.arrive(&progress);
+        let is_done = matches!(progress, Ok(Progress::Done));
         match progress {
             Ok(Progress::Event(event)) => self.compare(&event),
             Ok(Progress::Working | Progress::Done) => {}
@@ -75,7 +77,8 @@ impl Run {
         self.simulation.take_motion(|_| {});
         self.apply_due_edits();
         self.compare_state();
-        if !self.at.is_not_after(self.cursor) {
+        let is_stuck = is_done && (self.at, self.applied) == before;
+        if is_stuck || !self.at.is_not_after(self.cursor) {
             self.report_divergence("what is shown does not come again");
             self.cursor = self.at;
         }

@@ -95,7 +95,7 @@ impl Rerun {
     pub fn verify(&mut self, go_on: GoOn<'_>) -> Result<Compared, RerunError> {
         let checkpoints = self.file.checkpoints.clone();
         let mut compared = Compared { same: 0, left_out: 0 };
-        let mut last = Checkpoint { at: super::Moment::default(), hash: String::new() };
+        let mut last = Checkpoint { at: super::Moment::default(), hash: String::new(), line: None };
         for (nth, checkpoint) in checkpoints.iter().enumerate() {
             if checkpoint.at.time < self.runner.frame().recorded.from {
                 compared.left_out += 1;
@@ -106,7 +106,9 @@ impl Rerun {
             let hash = self.runner.hash().map(|hash| format!("{hash:016x}"));
             let frame = self.runner.frame();
             if hash.as_deref() != Some(checkpoint.hash.as_str()) || frame.complaint().is_some() {
-                let message = parting(&last, checkpoint, &frame);
+                let line = checkpoint.line.map_or_else(String::new, |line| format!(", line {line}"));
+                let parted = parting(&last, checkpoint, &frame);
+                let message = format!("checkpoint {}{line}: {parted}", nth + 1);
                 return Err(RerunError::Parted { time: checkpoint.at.time, message });
             }
             compared.same += 1;
@@ -119,6 +121,12 @@ impl Rerun {
 /// Between two states of which the first is still the same: when, and what happens there first in the run made again.
 fn parting(last: &Checkpoint, checkpoint: &Checkpoint, frame: &Frame) -> String {
     let (from, to, event) = (last.at.time, checkpoint.at.time, checkpoint.at.event);
+    if (frame.time, frame.event_count) != (to, event) {
+        return format!(
+            "it is at no place of the run: {}; the run parts from the recording after t = {from} s, or the file is damaged",
+            frame.complaint().unwrap_or("it is not reached")
+        );
+    }
     let why = frame.complaint().unwrap_or("the state is another one");
     let first = frame.ledger.get(last.at.event + 1).filter(|row| row.event.time <= to);
     let first = first.map_or_else(

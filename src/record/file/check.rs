@@ -61,15 +61,22 @@ fn steps(file: &RecordingFile) -> Checked {
     Ok(())
 }
 
-/// Edits come one after the other, and before the end.
+/// Edits and checkpoints come one after the other, and before the end.
 fn in_order(file: &RecordingFile) -> Checked {
-    let moments = file.edits.iter().map(|edits| edits.at).chain([file.end]);
-    let mut pairs = moments.clone().zip(moments.skip(1)).enumerate();
-    let at = |moment: Moment| format!("after event {} at {:?} s", moment.event, moment.time);
-    match pairs.find(|(_, (one, next))| !one.is_not_after(*next)) {
+    let edits: Vec<_> = file.edits.iter().map(|edits| edits.at).collect();
+    one_after_the_other("edits", &edits, file.end)?;
+    let checkpoints: Vec<_> = file.checkpoints.iter().map(|checkpoint| checkpoint.at).collect();
+    one_after_the_other("checkpoints", &checkpoints, file.end)
+}
+
+fn one_after_the_other(field: &str, moments: &[Moment], end: Moment) -> Checked {
+    let following = moments.iter().skip(1).chain([&end]);
+    let mut pairs = moments.iter().zip(following).enumerate();
+    let at = |moment: &Moment| format!("after event {} at {:?} s", moment.event, moment.time);
+    match pairs.find(|(_, (one, next))| !one.is_not_after(**next)) {
         Some((nth, (one, next))) => {
-            let what = if nth + 1 < file.edits.len() { "the next edits" } else { "the end" };
-            wrong(format!("edits[{nth}].at is {}, and {what} {}, which is before", at(one), at(next)))
+            let what = if nth + 1 < moments.len() { format!("the next {field}") } else { "the end".into() };
+            wrong(format!("{field}[{nth}].at is {}, and {what} {}, which is before", at(one), at(next)))
         }
         None => Ok(()),
     }

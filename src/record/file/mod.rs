@@ -4,6 +4,7 @@
 mod check;
 mod error;
 mod keys;
+mod lines;
 mod script;
 #[cfg(test)]
 mod tests;
@@ -86,6 +87,9 @@ pub struct Checkpoint {
     pub at: Moment,
     /// Hexadecimal.
     pub hash: String,
+    /// Where it was read: the line of the file, from 1.
+    #[serde(skip)]
+    pub line: Option<usize>,
 }
 
 /// A bookmark.
@@ -143,7 +147,11 @@ impl RecordingFile {
         if head.version != VERSION {
             return Err(RecordingError::Version(head.version));
         }
-        let file: Self = serde_json::from_slice(bytes).map_err(malformed)?;
+        let mut file: Self = serde_json::from_slice(bytes).map_err(malformed)?;
+        let lines = lines::of_checkpoints(bytes).map_err(malformed)?;
+        for (checkpoint, line) in file.checkpoints.iter_mut().zip(lines) {
+            checkpoint.line = Some(line);
+        }
         file.check()?;
         Ok(file)
     }

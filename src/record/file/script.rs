@@ -49,16 +49,20 @@ fn checkpoints(run: &Run) -> Vec<Checkpoint> {
     let made = |at: Moment| recording.edits().partition_point(|edits| edits.at.is_not_after(at));
     let whole: Vec<_> = recording.keyframes.states().filter(|(at, edits, _)| made(*at) == *edits).collect();
     let stride = whole.len().div_ceil(MOST_CHECKPOINTS).max(1);
-    let state = |(at, _, hash): &(Moment, usize, u64)| Checkpoint { at: *at, hash: format!("{hash:016x}") };
+    let state = |(at, _, hash): &(Moment, usize, u64)| checkpoint(*at, *hash);
     let mut states: Vec<Checkpoint> = whole.iter().step_by(stride).map(state).collect();
     // The end too, from wherever the recording is saved.
     let head = recording.keyframes.head().map(|head| (head.at, head.hash));
     let end = head.or_else(|| (run.at == recording.end).then(|| (run.at, run.simulation.hash())));
     let is_new = |at: Moment| at == recording.end && states.last().is_none_or(|last| last.at != at);
     if let Some((at, hash)) = end.filter(|(at, _)| is_new(*at)) {
-        states.push(Checkpoint { at, hash: format!("{hash:016x}") });
+        states.push(checkpoint(at, hash));
     }
     states
+}
+
+fn checkpoint(at: Moment, hash: u64) -> Checkpoint {
+    Checkpoint { at, hash: format!("{hash:016x}"), line: None }
 }
 
 impl RecordingFile {

@@ -77,6 +77,36 @@ fn a_run_that_parts_from_its_recording_ends_with_3_and_says_where() {
     assert!(matches!(outcome.code, 2 | 3), "{}: {}", outcome.code, outcome.stderr);
 }
 
+/// Symptom: the way to a checkpoint that lies before its event, or between two events, had no end.
+#[test]
+fn a_checkpoint_at_no_place_of_the_run_ends_the_comparing_with_its_line() {
+    let bench = recorded();
+    let text = bench.read("run.psrec");
+    let at = text.find("\"checkpoints\"").expect("states");
+    let (head, states) = text.split_at(at);
+    let event = states.find("\"event\": 1").expect("one after the impact");
+    let number = states[..event].matches("\"hash\"").count() + 1;
+    let line = text[..at + event].lines().count() - 2;
+    let (before, after) = states.split_at(event);
+    let end = after.find('}').expect("its end");
+    for (moment, code, expected) in [
+        ("\"event\": 1, \"time\": 0.0, \"is_over\": true", 3, "event 1 at 0 s is not recorded"),
+        ("\"event\": 0, \"time\": 0.5, \"is_over\": false", 3, "what is shown does not come again"),
+        (
+            "\"event\": 1, \"time\": 2.6, \"is_over\": true",
+            2,
+            "and the end after event 1 at 2.5 s, which is before",
+        ),
+    ] {
+        bench.write("moved.psrec", format!("{head}{before}{moment}{}", &after[end..]));
+        let outcome = bench.polyscene(&["replay", "moved.psrec", "--verify", "--max-wall", "20"]);
+        assert_eq!(outcome.code, code, "{moment}: {}", outcome.stderr);
+        assert!(outcome.stderr.contains(expected), "{moment}: {}", outcome.stderr);
+        let place = format!("checkpoint {number}, line {line}: it is at no place of the run");
+        assert!(code == 2 || outcome.stderr.contains(&place), "{place}: {}", outcome.stderr);
+    }
+}
+
 #[test]
 fn what_is_no_recording_is_refused_with_its_reason() {
     let bench = recorded();
