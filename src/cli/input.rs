@@ -4,7 +4,8 @@ use std::io::Read as _;
 use std::path::Path;
 
 use super::CliError;
-use crate::scene::{Diagnostic, Document, shown_path};
+use crate::record::RecordingFile;
+use crate::scene::{Diagnostic, Document, Severity, shown_path};
 use crate::sim::{Method, Simulation};
 
 /// A scene file is at most 256 MiB; one byte more is enough for the reader to say so.
@@ -56,6 +57,9 @@ pub fn display_name(path: &Path) -> String {
 /// Finds all problems: of the text, of what it means, and of the geometry at the start. The simulation steps
 /// by `method`.
 pub fn examine(document: Document, method: Method) -> Examined {
+    if is_recording(&document) {
+        return Examined { document, simulation: None, problems: vec![recording_for_a_scene()] };
+    }
     let mut problems = document.diagnostics().to_vec();
     let mut simulation = None;
     if !document.has_errors()
@@ -70,6 +74,23 @@ pub fn examine(document: Document, method: Method) -> Examined {
         problems.sort_by_key(|problem| (problem.position.is_none(), problem.position));
     }
     Examined { document, simulation, problems }
+}
+
+/// Whether somebody gave a recording where a scene is meant.
+fn is_recording(document: &Document) -> bool {
+    document.has_errors() && document.scene().is_none() && RecordingFile::is_meant(&document.to_bytes())
+}
+
+fn recording_for_a_scene() -> Diagnostic {
+    Diagnostic {
+        severity: Severity::Error,
+        position: None,
+        path: String::new(),
+        message: "this is a recording, not a scene".into(),
+        hint: "`polyscene replay` runs it again, `polyscene export` writes how its bodies moved, and the editor opens it"
+            .into(),
+        key: None,
+    }
 }
 
 /// The simulation knows the element but not where it stands in the file.

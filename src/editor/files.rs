@@ -8,6 +8,7 @@ use super::open_document::OpenFile;
 use super::travel::Travel;
 use super::{Notice, Outcome, Recovered, SAMPLES, Session};
 use crate::import;
+use crate::record::RecordingFile;
 use crate::scene::{Document, shown_path};
 
 impl Session {
@@ -97,6 +98,10 @@ impl Session {
             }
         };
         let document = Document::open(&path);
+        // By another name than recordings have.
+        if document.has_errors() && RecordingFile::is_meant(&document.to_bytes()) {
+            return self.open_recording(&path);
+        }
         if import::source_of(&document).is_some() {
             return self.open_foreign(&path, &document, false);
         }

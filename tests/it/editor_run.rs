@@ -115,6 +115,17 @@ fn a_recording_opened_while_a_scene_plays_is_run_whole() {
     assert!(bench.sent().is_empty(), "nothing plays");
 }
 
+/// Symptom: a recording by another name was shown as a scene with errors of its text.
+#[test]
+fn a_recording_by_another_name_is_opened_as_one() {
+    let mut bench = Bench::open();
+    let path = recording(&bench).with_file_name("run.json");
+    std::fs::rename(path.with_extension("psrec"), &path).unwrap();
+    bench.act(Action::OpenPath(path));
+    let sent = bench.sent();
+    assert!(sent.last().is_some_and(|last| last.starts_with("Script")), "{sent:?}");
+}
+
 /// Symptom: of two steps asked for while a scene played, the first was lost. Expected: playing is ended once. Cause: the second
 /// pause, sent before a frame showed the first, ended the step between.
 #[test]

@@ -156,6 +156,11 @@ impl RecordingFile {
         Ok(file)
     }
 
+    /// Whether a file's bytes begin as those of a recording do, sound or not.
+    pub fn is_meant(bytes: &[u8]) -> bool {
+        bytes.windows(FORMAT.len()).take(HEAD_BYTES).any(|text| text == FORMAT.as_bytes())
+    }
+
     /// As a file has it.
     pub fn to_bytes(&self) -> Result<Vec<u8>, RecordingError> {
         let mut bytes =
@@ -217,8 +222,8 @@ struct Head {
 
 /// What begins as recordings do was one; anything else never was.
 fn headless(bytes: &[u8], error: &serde_json::Error) -> RecordingError {
-    let named = bytes.windows(FORMAT.len()).take(HEAD_BYTES).any(|text| text == FORMAT.as_bytes());
-    let kind = if named { RecordingError::Malformed } else { RecordingError::Foreign };
+    let kind =
+        if RecordingFile::is_meant(bytes) { RecordingError::Malformed } else { RecordingError::Foreign };
     kind(error.to_string())
 }
 
