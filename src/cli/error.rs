@@ -32,6 +32,9 @@ pub enum CliError {
     /// Ctrl-C or a request to terminate.
     #[error("interrupted at t = {time} s; what was written so far is complete")]
     Interrupted { time: f64 },
+    /// The same, where nothing was written.
+    #[error("interrupted at t = {time} s; nothing was written")]
+    Abandoned { time: f64 },
     /// The same, of a study.
     #[error("interrupted; the report holds what was done so far")]
     Cancelled,
@@ -45,7 +48,7 @@ impl CliError {
             Self::Usage(_) => 2,
             Self::Fault(_) => 3,
             Self::Stopped { .. } | Self::Unwritten { .. } | Self::StudyStopped(_) => 4,
-            Self::Interrupted { .. } | Self::Cancelled => 130,
+            Self::Interrupted { .. } | Self::Abandoned { .. } | Self::Cancelled => 130,
         }
     }
 

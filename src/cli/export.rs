@@ -190,7 +190,7 @@ fn exported(
 /// What stood in the way.
 fn refused(args: &ExportArgs, error: &ExportError) -> CliError {
     match error {
-        ExportError::Cancelled { time } => CliError::Interrupted { time: *time },
+        ExportError::Cancelled { time } => CliError::Abandoned { time: *time },
         ExportError::NoMotion(_) => {
             let able: Vec<_> = FORMATS.iter().filter(|format| format.moves).map(|format| format.id).collect();
             CliError::Usage(format!("--until: {error}; {} can hold it", able.join(", ")))

@@ -60,7 +60,7 @@ pub(super) fn replay(args: &ReplayArgs) -> Result<(), CliError> {
     if let Some(events) = &args.events {
         output::refuse_bad("--events", events, ("the recording", &args.file), args.force)?;
     }
-    args.rows.check(None, args.events.as_deref())?;
+    args.rows.check(None, args.events.as_deref(), "--events FILE")?;
     let of = |error: RerunError| stopped(&name, error);
     let file = RecordingFile::read(&read(&args.file)?).map_err(|error| of(error.into()))?;
     let wanted = wanted(args, &file)?;
@@ -111,9 +111,8 @@ pub(super) fn stopped(name: &str, error: RerunError) -> CliError {
         RerunError::Parted { time, message } => {
             CliError::Fault(Fault { time, message: format!("{name}: {message}"), key: None })
         }
-        RerunError::Cancelled { .. } | RerunError::Recording(_) => {
-            CliError::Usage(format!("{name}: {error}"))
-        }
+        RerunError::Cancelled { time } => CliError::Abandoned { time },
+        RerunError::Recording(_) => CliError::Usage(format!("{name}: {error}")),
     }
 }
 

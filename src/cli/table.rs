@@ -99,9 +99,14 @@ impl RowArgs {
         Ok(Table { costs: self.costs, ..Table::create(path, self.style_of(path), columns)? })
     }
 
-    /// Refuses what fits no output, before the run.
-    pub fn check(&self, states: Option<&Path>, events: Option<&Path>) -> Result<(), CliError> {
+    /// Refuses what fits no output, before the run. `options` are those that write rows.
+    pub fn check(&self, states: Option<&Path>, events: Option<&Path>, options: &str) -> Result<(), CliError> {
         let outputs = [states, events].into_iter().flatten();
+        if let (None, Some(given)) = (outputs.clone().next(), self.given()) {
+            return Err(CliError::Usage(format!(
+                "{given} is about rows, and none are written: add {options}"
+            )));
+        }
         if !self.columns.is_empty() && outputs.clone().any(|path| self.style_of(path) == Style::Jsonl) {
             return Err(CliError::Usage("--columns are those of CSV: add --rows csv".into()));
         }
@@ -115,6 +120,16 @@ impl RowArgs {
             }
             _ => Ok(()),
         }
+    }
+
+    /// The first option about rows that was given.
+    fn given(&self) -> Option<&'static str> {
+        let options = [
+            ("--rows", self.style.is_some()),
+            ("--bodies", !self.bodies.is_empty()),
+            ("--columns", !self.columns.is_empty()),
+        ];
+        options.into_iter().find_map(|(option, is_given)| is_given.then_some(option))
     }
 
     fn style_of(&self, path: &Path) -> Style {

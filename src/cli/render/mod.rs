@@ -147,8 +147,10 @@ pub(super) fn render(args: &RenderArgs) -> Result<(), CliError> {
         let time = studio.frame.time;
         let stopped = |why| CliError::Stopped { time, why };
         match (exceeded, args.until) {
+            (Some(why), Some(_)) if nth == 0 => return Err(CliError::Unwritten { time, why }),
             (Some(why), Some(_)) => return Err(stopped(why)),
             (Some(why), None) => return studio.draw(path).and(Err(stopped(why))),
+            (None, _) if is_interrupted() && nth == 0 => return Err(CliError::Abandoned { time }),
             (None, _) if is_interrupted() => return Err(CliError::Interrupted { time }),
             (None, _) => studio.draw(path)?,
         }

@@ -45,7 +45,7 @@ pub struct RunArgs {
     until: f64,
 
     /// Write the state after every N-th Δt (besides the first and the last)
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "dt", requires = "states", value_parser = clap::value_parser!(u64).range(1..))]
     every: u64,
 
     /// How to step
@@ -88,7 +88,7 @@ pub(super) fn run(args: &RunArgs) -> Result<(), CliError> {
     }
     let grid = SampleGrid::new(args.dt, args.until).map_err(CliError::Usage)?;
     refuse_clashing_outputs(args)?;
-    args.rows.check(args.states.as_deref(), args.events.as_deref())?;
+    args.rows.check(args.states.as_deref(), args.events.as_deref(), "--states FILE or --events FILE")?;
     let final_scene = args.final_scene.as_deref().map(FinalScene::new);
 
     let watchdog = args.limits.watchdog();

@@ -97,6 +97,47 @@ fn ctrl_c_reaches_a_film_between_two_pictures() {
     assert!(!bench.path("f-01.png").exists());
 }
 
+/// Symptom: “what was written so far is complete”, though there was no file.
+#[cfg(target_os = "linux")]
+#[test]
+fn ctrl_c_during_an_export_says_that_nothing_was_written() {
+    let gas = scenes_folder().join("gas.xml");
+    let bench = Bench::new();
+    let child = bench
+        .command(&[
+            "export",
+            gas.to_str().expect("UTF-8 paths"),
+            "--to",
+            "csv",
+            "--at",
+            "1e6",
+            "-o",
+            "gas.csv",
+        ])
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    let id = child.id();
+    // Caught signals as bits, of which the second is that of Ctrl-C.
+    let hears = || {
+        let status = std::fs::read_to_string(format!("/proc/{id}/status")).unwrap_or_default();
+        let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:"));
+        caught.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).is_some_and(|mask| mask & 2 != 0)
+    };
+    let patience = Instant::now();
+    while !hears() {
+        assert!(patience.elapsed() < Duration::from_secs(60), "it does not listen in a minute");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let killed = Command::new("sh").args(["-c", &format!("kill -INT {id}")]).status();
+    assert!(killed.is_ok_and(|status| status.success()));
+    let output = child.wait_with_output().expect("the program ends");
+    let complaint = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(130), "{complaint}");
+    assert!(complaint.contains("; nothing was written"), "{complaint}");
+    assert!(!bench.path("gas.csv").exists());
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_is_told() {

@@ -114,6 +114,13 @@ fn rows_are_filtered_by_body_kind_and_column() {
         (&["--events", "x.csv", "--columns", "t,colour"], "colour is none of seq, t, kind"),
         (&["--events", "x.csv", "--states", "y.csv", "--columns", "seq"], "leaves no column"),
         (&["--kinds", "impact"], "--events"),
+        (
+            &["--columns", "t,a"],
+            "--columns is about rows, and none are written: add --states FILE or --events FILE",
+        ),
+        (&["--bodies", "8"], "--bodies is about rows, and none are written: add --states"),
+        (&["--every", "3", "--states", "-"], "--dt <S>"),
+        (&["--every", "3", "--dt", "0.1"], "--states <FILE>"),
     ] {
         let refused = run(options);
         assert_eq!((refused.code, refused.stdout.as_str()), (2, ""), "{options:?}: {}", refused.stderr);
