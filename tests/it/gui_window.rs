@@ -175,7 +175,7 @@ fn the_inspector_shows_start_and_now() {
     assert_eq!(start.as_deref(), Some("2"));
     let now = window.frame().bodies.iter().find(|body| body.key == window.body("15921").key).unwrap();
     assert!(now.position.y < 2.0);
-    assert!(window.has("Kinetic energy") && window.has("Total force"));
+    assert!(window.has("Kinetic energy") && window.has("Applied force"));
 }
 
 #[test]

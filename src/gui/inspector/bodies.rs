@@ -12,9 +12,13 @@ use crate::gui::numbers::{fitting, significant};
 use crate::gui::widgets::mono;
 use crate::record::BodyFrame;
 use crate::scene::{Body, BodyChange, Edit, NodeKey, Shape};
+use crate::sim::ContactState;
 
 /// Width of the names of rows, points: the longest of them with its axis.
 const LABEL_WIDTH: f32 = 110.0;
+
+/// The same of rows without fields, whose names may be longer.
+const WIDE_LABEL_WIDTH: f32 = 138.0;
 
 /// Digits and characters of what a body does now, so that it fits beside what it starts with; the tooltip has all.
 const NOW_DIGITS: usize = 7;
@@ -198,8 +202,12 @@ fn rows(
 
 /// A row's name and axis; the response is that of the name.
 pub fn row_label(ui: &mut Ui, label: &str, axis: &str) -> Response {
+    label_of_width(ui, LABEL_WIDTH, label, axis)
+}
+
+fn label_of_width(ui: &mut Ui, width: f32, label: &str, axis: &str) -> Response {
     ui.horizontal(|ui| {
-        ui.set_min_width(LABEL_WIDTH);
+        ui.set_min_width(width);
         let response = ui.label(label);
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.label(RichText::new(axis).color(tones(ui).weak));
@@ -257,9 +265,14 @@ fn help(label: &str) -> &'static str {
 
 /// What only a simulation knows.
 fn motion(ui: &mut Ui, now: &BodyFrame) {
+    // Contacts of a stepped body act between its steps only.
+    let (acceleration, of_what) = match now.contact {
+        ContactState::Stepped => ("Applied acceleration", "Of the forces of the scene, without its contacts"),
+        _ => ("Acceleration", "Of the motion, so contact forces are included"),
+    };
     let vectors = [
-        ("Acceleration", now.acceleration, "m/s²", "Of the motion, so contact forces are included"),
-        ("Total force", now.force, "N", "Sum of the forces of the scene, without contact forces"),
+        (acceleration, now.acceleration, "m/s²", of_what),
+        ("Applied force", now.force, "N", "Sum of the forces of the scene, without its contacts"),
     ];
     section(ui, "Now");
     Grid::new("body motion").num_columns(3).spacing([6.0, 3.0]).show(ui, |ui| {
@@ -282,7 +295,7 @@ fn motion(ui: &mut Ui, now: &BodyFrame) {
 }
 
 pub(super) fn row(ui: &mut Ui, [label, axis]: [&str; 2], value: String, unit: &str, help: &str) {
-    row_label(ui, label, axis).on_hover_text(help);
+    label_of_width(ui, WIDE_LABEL_WIDTH, label, axis).on_hover_text(help);
     ui.label(mono(value));
     ui.label(RichText::new(unit).color(tones(ui).weak));
     ui.end_row();
