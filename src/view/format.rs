@@ -13,6 +13,15 @@ pub(super) fn short(value: f64) -> String {
     number(value, (2.0 - exponent).clamp(0.0, 12.0) as usize)
 }
 
+/// A value of one digit, such as a scale of 1, 2, 5 × 10^k, without what its rounding adds: `0.05`, `20`, `1e21`.
+pub(super) fn one_digit(value: f64) -> String {
+    let power = format!("{value:.0e}");
+    match power.parse() {
+        Ok(rounded) if (1e-4..1e6).contains(&rounded) => number(rounded, 4),
+        _ => power,
+    }
+}
+
 /// A length in the unit that keeps it short: `20 cm`, `1 m`, `5 km`.
 pub fn with_unit(metres: f64) -> String {
     const UNITS: [(f64, &str); 5] = [(1e3, "km"), (1.0, "m"), (1e-2, "cm"), (1e-3, "mm"), (1e-6, "µm")];
@@ -31,4 +40,15 @@ pub(super) fn round_down_125(value: f64) -> f64 {
     let power = libm::exp10((libm::log10(value) + 1e-12).floor());
     let mantissa = value / power * (1.0 + 1e-12);
     power * [5.0, 2.0].into_iter().find(|step| mantissa >= *step).unwrap_or(1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scales_are_written_with_their_one_digit() {
+        let written = [1e-20, 1e-4, 0.05, 1.0 / 0.2, 2e5, 1.0 / 5e-10, 1.0 / 1e-21].map(one_digit);
+        assert_eq!(written, ["1e-20", "0.0001", "0.05", "5", "200000", "2e9", "1e21"]);
+    }
 }

@@ -11,6 +11,7 @@ mod draw_list;
 mod first_person;
 mod forces;
 mod format;
+mod front;
 mod furniture;
 mod gizmo;
 mod input;

@@ -1,15 +1,18 @@
 //! The scene as it stands at the moment of the picture: bodies in their places, and what every builder needs.
 
+use std::cell::OnceCell;
+
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::camera::is_drawable;
+use super::front::Front;
 use super::{
     Bounds, Camera, Color, DrawList, Line, Palette, ViewInput, bounds, color,
     see_through::{Walls, is_between},
 };
 use crate::record::BodyFrame;
-use crate::scene::{Body, NodeKey};
+use crate::scene::{Body, NodeKey, Shape};
 
 /// A body where it is now.
 pub(super) struct Posed<'a> {
@@ -52,7 +55,12 @@ pub(super) struct Stage<'a> {
     pub bodies: Vec<Posed<'a>>,
     /// Around the map.
     pub map: Bounds,
+    /// Of a crowd; made where it is asked for.
+    front: OnceCell<Option<Front>>,
 }
+
+/// Moving bodies from which on marks of those behind others are left out: they would cover the front ones.
+const CROWD: usize = 300;
 
 impl<'a> Stage<'a> {
     pub fn new(input: &'a ViewInput<'a>) -> Self {
@@ -82,7 +90,37 @@ impl<'a> Stage<'a> {
                 posed.color = palette.wall;
             }
         }
-        Self { input, camera: input.camera.usable(), palette, bodies, map }
+        Self { input, camera: input.camera.usable(), palette, bodies, map, front: OnceCell::new() }
+    }
+
+    /// Of a crowd.
+    fn front(&self) -> Option<&Front> {
+        let ball = |posed: &Posed<'_>| match posed.body.shape {
+            Shape::Sphere { radius } => Some((posed.position, radius)),
+            Shape::Plane { .. } | Shape::Unbuilt { .. } => None,
+        };
+        let of_crowd = || {
+            let balls = self.bodies.iter().filter_map(ball);
+            let is_crowd = self.bodies.iter().filter(|posed| posed.body.is_dynamic()).nth(CROWD).is_some();
+            is_crowd.then(|| Front::of(self.camera, self.input.viewport, balls))
+        };
+        self.front.get_or_init(of_crowd).as_ref()
+    }
+
+    /// Whether so many bodies move that marks are for the front ones.
+    pub fn is_crowd(&self) -> bool {
+        self.front().is_some()
+    }
+
+    /// Whether marks of a body are drawn: in a crowd those of the front ones, and of what is meant.
+    pub fn shows_marks_of(&self, posed: &Posed<'_>) -> bool {
+        let is_hidden = || self.front().is_some_and(|front| front.hides_ball_at(posed.position));
+        posed.selected || posed.hovered || !is_hidden()
+    }
+
+    /// Whether a mark at a place where bodies touch is drawn.
+    pub fn shows_mark_at(&self, place: DVec3) -> bool {
+        self.front().is_none_or(|front| !front.hides(place))
     }
 
     /// Metres per point at `place`.

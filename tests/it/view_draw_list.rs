@@ -149,6 +149,12 @@ fn every_overlay_shows_something_and_only_when_asked() {
         assert!(size(OverlaySet::from_ids([overlay.id])) > none, "{} shows nothing", overlay.id);
         assert!(!overlay.label.is_empty() && overlay.help.ends_with('.'), "{}", overlay.id);
     }
+    // Velocities at an event have the scale of all others.
+    let legend = |ids: &[&str]| {
+        let overlays = OverlaySet::from_ids(ids.iter().copied());
+        build_draw_list(&ViewInput { overlays, ..input }).legend
+    };
+    assert_eq!([&["velocities", "impact"][..], &["impact"]].map(|ids| legend(ids).len()), [1, 1]);
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use crate::record::ImpactBody;
 use crate::scene::Shape;
 use crate::view::overlays::scaled_arrows::{self, Quantity};
+use crate::view::overlays::velocities;
 use crate::view::stage::{Pen, Posed, Stage};
 use crate::view::{DrawList, Point, PointShape};
 
@@ -13,11 +14,14 @@ pub(in crate::view) fn add(stage: &Stage<'_>, list: &mut DrawList) {
         impact.iter().map(|body| (body.position, of(body))).collect::<Vec<_>>()
     };
     // What came ends where the body is, so that it is seen to come.
-    let scale = scaled_arrows::scale(stage, impact.iter().flat_map(|body| [body.before, body.after]));
+    let scale = velocities::scale_with_events(stage);
     let after = Quantity { name: "event velocity", unit: "m/s", color: stage.palette.velocity };
     let before = Quantity { color: stage.palette.velocity.with_alpha(130), ..after };
     scaled_arrows::add_ending(stage, list, &before, &vectors(|body| body.before), scale);
     scaled_arrows::add_at(stage, list, &after, &vectors(|body| body.after), scale);
+    if !impact.is_empty() && !velocities::are_shown(stage) {
+        scaled_arrows::add_to_legend(list, &after, scale);
+    }
     for body in impact.iter() {
         let Some(posed) = stage.bodies.iter().find(|posed| posed.body.key == body.key) else { continue };
         ghost(stage, list, posed, body.at_start, 1.0);

@@ -20,7 +20,8 @@ pub(in crate::view) fn add(stage: &Stage<'_>, list: &mut DrawList) {
     let count = hits.clone().count();
     let largest = hits.clone().map(|event| event.impulse).fold(0.0, f64::max);
     let share = share_of_size(stage.input.viewport, count.min(MOST));
-    for event in hits.skip(count.saturating_sub(MOST)) {
+    let last = hits.skip(count.saturating_sub(MOST));
+    for event in last.filter(|event| stage.shows_mark_at(event.point)) {
         add_contact(stage, list, event, (largest, share));
     }
     if count > MOST || frame.events_truncated {

@@ -3,10 +3,10 @@
 use glam::DVec3;
 
 use crate::scene::{Body, Map, Motion, Scene};
-use crate::view::format::round_down_125;
+use crate::view::format::{one_digit, round_down_125};
 use crate::view::overlays::crowd::share_of_size;
-use crate::view::stage::Stage;
-use crate::view::{Arrow, Camera, Color, DrawList, Viewport, format::number};
+use crate::view::stage::{Posed, Stage};
+use crate::view::{Arrow, Camera, Color, DrawList, Viewport};
 
 /// More arrows are a thicket, and each takes as long to draw as a ball.
 const MOST: usize = 1000;
@@ -19,6 +19,9 @@ const SHORTEST: f64 = 12.0;
 pub(super) fn width_of(share: f64) -> f32 {
     (2.0 * share).max(1.0) as f32
 }
+
+/// A vector of a body.
+pub(super) type OfBody<'a> = (&'a Posed<'a>, DVec3);
 
 /// What the arrows show.
 pub(super) struct Quantity {
@@ -66,11 +69,9 @@ pub(super) fn scale_at(stage: &Stage<'_>, vectors: &[(DVec3, DVec3)]) -> Option<
     scale_for(stage, largest(&stage.input.scene.map, vectors.iter().copied()))
 }
 
-/// How long one unit of a quantity is drawn, m, so that the largest of some vectors is as long as an arrow can be; `None`
-/// without any.
-pub(super) fn scale(stage: &Stage<'_>, vectors: impl Iterator<Item = DVec3>) -> Option<f64> {
-    let lengths = vectors.map(DVec3::length);
-    scale_for(stage, lengths.fold((0.0, 0), |(largest, count), length| (length.max(largest), count + 1)))
+/// The largest length of some vectors, and how many they are.
+fn longest(vectors: impl Iterator<Item = DVec3>) -> (f64, usize) {
+    vectors.map(DVec3::length).fold((0.0, 0), |(largest, count), length| (length.max(largest), count + 1))
 }
 
 fn scale_for(stage: &Stage<'_>, (largest, count): (f64, usize)) -> Option<f64> {
@@ -78,13 +79,36 @@ fn scale_for(stage: &Stage<'_>, (largest, count): (f64, usize)) -> Option<f64> {
     is_drawable.then(|| metres_per_unit((largest, count), &stage.camera, stage.input.viewport))
 }
 
-/// Adds an arrow for each (place, vector), and a line with the scale to the legend.
-pub(super) fn add(stage: &Stage<'_>, list: &mut DrawList, quantity: &Quantity, vectors: &[(DVec3, DVec3)]) {
-    let scale = scale(stage, vectors.iter().map(|(_, vector)| *vector));
-    add_at(stage, list, quantity, vectors, scale);
+/// Adds an arrow for each body's vector, and a line with the scale to the legend.
+pub(super) fn add(stage: &Stage<'_>, list: &mut DrawList, quantity: &Quantity, vectors: &[OfBody<'_>]) {
+    let scale = scale_for(stage, longest(vectors.iter().map(|(_, vector)| *vector)));
+    add_of_bodies(stage, list, quantity, vectors, scale);
 }
 
 /// As [`add`], at a scale.
+pub(super) fn add_of_bodies(
+    stage: &Stage<'_>,
+    list: &mut DrawList,
+    quantity: &Quantity,
+    vectors: &[OfBody<'_>],
+    scale: Option<f64>,
+) {
+    let shown = vectors.iter().filter(|(posed, _)| stage.shows_marks_of(posed));
+    let shown: Vec<_> = shown.map(|(posed, vector)| (posed.position, *vector)).collect();
+    add_at(stage, list, quantity, &shown, scale);
+    add_to_legend(list, quantity, scale);
+}
+
+/// Adds a line with the scale to the legend.
+pub(super) fn add_to_legend(list: &mut DrawList, quantity: &Quantity, scale: Option<f64>) {
+    if let Some(metres_per_unit) = scale {
+        let Quantity { name, unit, color } = quantity;
+        list.legend
+            .push((*color, format!("{name} arrows: 1 m = {} {unit}", one_digit(1.0 / metres_per_unit))));
+    }
+}
+
+/// Adds an arrow for each (place, vector) at a scale.
 pub(super) fn add_at(
     stage: &Stage<'_>,
     list: &mut DrawList,
@@ -93,14 +117,9 @@ pub(super) fn add_at(
     scale: Option<f64>,
 ) {
     add_arrows(stage, list, quantity, vectors, (scale, 0.0));
-    if let Some(metres_per_unit) = scale {
-        let Quantity { name, unit, color } = quantity;
-        list.legend
-            .push((*color, format!("{name} arrows: 1 m = {} {unit}", number(1.0 / metres_per_unit, 9))));
-    }
 }
 
-/// As [`add_at`], with arrows that end at their places, and without a line in the legend: for those beside others of one scale.
+/// As [`add_at`], with arrows that end at their places.
 pub(super) fn add_ending(
     stage: &Stage<'_>,
     list: &mut DrawList,

@@ -9,7 +9,7 @@ pub(in crate::view) fn add(stage: &Stage<'_>, list: &mut DrawList) {
     let vectors: Vec<_> = moving
         .map(|posed| {
             let turn = posed.now.and_then(|now| now.turn);
-            (posed.position, turn.map_or(posed.body.spin, |turn| turn.spin))
+            (posed, turn.map_or(posed.body.spin, |turn| turn.spin))
         })
         .collect();
     let quantity = Quantity { name: "spin", unit: "rad/s", color: stage.palette.spin };
