@@ -6,7 +6,7 @@ use super::stepped::{Contact, Moving, Step, Stepped};
 use super::sweep::{Judgement, System};
 use super::tolerance::{
     BUDGET, COARSEST, FINEST, FINEST_OF_DEEP, GAIN, GROSS_GAIN, MOST_GIVEN, MOST_IN_VAIN, MOST_SWEEPS,
-    SHARE_OF_BUDGET, SHARE_OF_WAY, SWEEPS_AGAINST_GAIN, SWEEPS_TO_BLOCK,
+    SHARE_IN_A_JAM, SHARE_OF_BUDGET, SHARE_OF_WAY, SWEEPS_AGAINST_GAIN, SWEEPS_TO_BLOCK,
 };
 
 /// What became of the contacts of a component in a step.
@@ -42,8 +42,11 @@ pub(super) fn solve(
     let tolerance = Tolerance::of(bodies, step);
     system.begin(bodies, step.h);
     rubbing.begin_anew();
-    add(problem, &tolerance, system, contacts, rubbing, 0);
     let allowed = allowed_gain(bodies);
+    if given > MOST_GIVEN * allowed {
+        contacts.iter_mut().for_each(|contact| contact.impulse *= SHARE_IN_A_JAM);
+    }
+    add(problem, &tolerance, system, contacts, rubbing, 0);
     let mut effort = Effort { has_blocks: rubbing.is_empty(), given, ..Effort::default() };
     let mut solution = Solution::default();
     loop {
