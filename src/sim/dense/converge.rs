@@ -5,8 +5,8 @@ use super::rub::{LawOf, Rubbing};
 use super::stepped::{Contact, Moving, Step, Stepped};
 use super::sweep::{Judgement, System};
 use super::tolerance::{
-    BUDGET, COARSEST, FINEST, FINEST_OF_DEEP, GAIN, GROSS_GAIN, MOST_GIVEN, MOST_IN_VAIN, MOST_SWEEPS,
-    SHARE_IN_A_JAM, SHARE_OF_BUDGET, SHARE_OF_WAY, SWEEPS_AGAINST_GAIN, SWEEPS_TO_BLOCK,
+    BUDGET, COARSEST, FINEST, FINEST_OF_DEEP, GAIN, GROSS_GAIN, MOST_BEFORE_FADING, MOST_GIVEN, MOST_IN_VAIN,
+    MOST_SWEEPS, SHARE_IN_A_JAM, SHARE_OF_BUDGET, SHARE_OF_WAY, SWEEPS_AGAINST_GAIN, SWEEPS_TO_BLOCK,
 };
 
 /// What became of the contacts of a component in a step.
@@ -43,7 +43,7 @@ pub(super) fn solve(
     system.begin(bodies, step.h);
     rubbing.begin_anew();
     let allowed = allowed_gain(bodies);
-    if given > MOST_GIVEN * allowed {
+    if given > MOST_BEFORE_FADING * allowed {
         contacts.iter_mut().for_each(|contact| contact.impulse *= SHARE_IN_A_JAM);
     }
     add(problem, &tolerance, system, contacts, rubbing, 0);

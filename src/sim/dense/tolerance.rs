@@ -107,10 +107,12 @@ pub(super) const MOST_TOGETHER: usize = 128;
 pub(super) const GAIN: f64 = 1e-5;
 pub(super) const MOST_GIVEN: f64 = 10.0;
 
-/// A component that was given so much begins a step with this part of the impulses of the step before. In a jam impulses may
-/// balance each other and bear nothing; sweeps alone keep them for ever, and the larger they are, the more gives what little
-/// is left of changes. At 0.9 some contacts sink beyond 1e-3 r meanwhile, at 1 a jam gave 0.02 m·g·r within 60 steps.
-pub(super) const SHARE_IN_A_JAM: f64 = 0.96875;
+/// A component that was given so many times that begins a step with this part of the impulses of the step before, until it has
+/// lost it again. In a jam impulses may balance each other and bear nothing; sweeps alone keep them for ever, and the larger
+/// they are, the more gives what little is left of changes: one jam gave 0.02 m·g·r within 60 steps. Where this begins
+/// earlier, at 10 or 100 times, contacts of jams that lose by themselves sink beyond 1e-3 r.
+pub(super) const MOST_BEFORE_FADING: f64 = 400.0;
+pub(super) const SHARE_IN_A_JAM: f64 = 0.9;
 
 /// But no more than so many sweeps, and none once as many as lie between blocks have left more than half of the gain, as long
 /// as not more than so many times that was given.
