@@ -239,6 +239,22 @@ fn a_long_step_has_keyframes_inside() {
     }
 }
 
+/// Symptom: "next event" of a ball that flew away simulated 10 000 Δt. Expected: once it has left the map it says that nothing
+/// follows.
+#[test]
+fn what_flies_away_has_no_next_event() {
+    for (gravity, speed) in [("0", "1"), ("9.8", "0"), ("-9.8", "20")] {
+        let bounce = std::str::from_utf8(BOUNCE).unwrap().replace("-9.8", gravity);
+        let away = format!("<InitialVelocity X=\"{speed}\"");
+        let mut recorder = loaded(bounce.replace("<InitialVelocity X=\"0\"", &away).as_bytes());
+        recorder.command(RunCommand::NextEvent { dt: 0.1, of: Of::All });
+        let frame = frame_when_done(&mut recorder);
+        let message = frame.message.unwrap_or_default();
+        assert!(message.contains("meets nothing"), "{gravity}, {speed}: {message} at {} s", frame.time);
+        assert!(frame.recorded.to < 20.0, "{gravity}, {speed}: {} s were simulated", frame.recorded.to);
+    }
+}
+
 /// Symptom: without gravity "next event" simulated 10 000 Δt of nothing. Expected: it says at once that nothing moves.
 #[test]
 fn where_nothing_moves_there_is_no_next_event() {

@@ -124,7 +124,15 @@ impl Task {
 }
 
 /// Why "next event" stops looking after so many empty Δt and this one.
-fn no_event(run: &Run, empty: u32) -> Option<String> {
+fn no_event(run: &mut Run, empty: u32) -> Option<String> {
+    if run.is_settled() && run.simulation.is_over() {
+        let text = if run.is_over() {
+            "there is no event after this: nothing moves, and no force acts on what could"
+        } else {
+            "there is no event after this: what moves flies on and meets nothing any more"
+        };
+        return Some(text.into());
+    }
     // A look at all bodies costs.
     if empty.is_multiple_of(STEPS_BETWEEN_LOOKS) && run.is_over() {
         return Some("there is no event after this: nothing moves, and no force acts on what could".into());

@@ -24,6 +24,11 @@ pub(super) fn advance(model: &Model, state: &mut State) -> Result<bool, Fault> {
     }
 }
 
+/// Whether it is known that nothing will ever happen; methods that step by Δt look no further than its end.
+pub(super) fn is_over(model: &Model, state: &mut State) -> bool {
+    model.method == Method::Exact && state.outbox.is_empty() && engine::is_over(state)
+}
+
 /// After an event: finds what only motion tells.
 pub(super) fn look(model: &mut Arc<Model>, state: &mut State) {
     if model.method == Method::Exact {

@@ -56,6 +56,17 @@ fn pop(state: &mut State, until: f64) -> Option<Predicted> {
     queue.pop(until, &mut counters.stale_events, |predicted| holds(stamps, dense.as_deref(), predicted))
 }
 
+/// Whether nothing is predicted any more: whatever moves goes on as it does for ever.
+pub(super) fn is_over(state: &mut State) -> bool {
+    if dense::next_step(state) < f64::INFINITY {
+        return false;
+    }
+    let next = pop(state, f64::INFINITY);
+    let is_over = next.is_none();
+    next.into_iter().for_each(|next| state.queue.push(next));
+    is_over
+}
+
 fn tidy(state: &mut State) {
     let State { queue, stamps, dense, .. } = state;
     queue.tidy(|predicted| holds(stamps, dense.as_deref(), predicted));

@@ -166,6 +166,12 @@ impl Simulation {
         Ok(Progress::Working)
     }
 
+    /// Whether it is known that no event will follow, now or ever, unless something is edited: bodies that left the map fly on
+    /// along straight lines or parabolas.
+    pub fn is_over(&mut self) -> bool {
+        self.fault.is_none() && drive::is_over(&self.model, &mut self.state)
+    }
+
     /// Goes through the events that are left to the time given to [`Self::begin`], which becomes now.
     pub fn finish(&mut self, on_event: &mut dyn FnMut(&Simulation, &Event)) -> Result<(), Fault> {
         while let Some(event) = self.next_event()? {
