@@ -199,7 +199,8 @@ fn dissipated(model: &Model, state: &State, body: u32, time: f64) -> f64 {
         let tau = time - segment.start;
         let way = tau * (segment.v + (0.5 * tau) * segment.a);
         return rubbed
-            - model.mass(body) * (segment.a - undamped(model, body, segment.start, segment.x)).dot(way);
+            - model.mass(body)
+                * (segment.a - undamped(model, body, segment.start, (segment.x, segment.v))).dot(way);
     }
     rubbed + by_law(model, state, body, time)
 }
@@ -252,8 +253,8 @@ fn torque_impulse(model: &Model, state: &State, body: u32, time: f64) -> DVec3 {
 }
 
 /// Acceleration by the forces that do not dissipate, m/s².
-pub(super) fn undamped(model: &Model, body: u32, time: f64, x: DVec3) -> DVec3 {
-    let subject = model.subject(body, time, Place::exact(x), DVec3::ZERO);
+pub(super) fn undamped(model: &Model, body: u32, time: f64, (x, v): (DVec3, DVec3)) -> DVec3 {
+    let subject = model.subject(body, time, Place::exact(x), v);
     let lasting = model.forces.iter().filter(|force| !force.law.dissipates());
     lasting.map(|force| force.law.force(&subject)).sum::<DVec3>() / subject.mass
 }
@@ -265,8 +266,8 @@ pub(super) fn book_kick(model: &Model, state: &mut State, body: u32, time: f64, 
     state.account.force_impulse.add(mass * kick);
     if model.forces.iter().any(|force| force.law.dissipates()) {
         let segment = &state.segments[body as usize];
-        let rise = undamped(model, body, time, state.position(body, time))
-            - undamped(model, body, segment.start, segment.x);
+        let rise = undamped(model, body, time, (state.position(body, time), v))
+            - undamped(model, body, segment.start, (segment.x, segment.v));
         let of_drag = kick - (0.5 * (time - segment.start)) * rise;
         state.account.dissipated.add(-mass * of_drag.dot(v + 0.5 * kick));
     }

@@ -331,7 +331,7 @@ fn predict_reach(model: &Model, state: &mut State, pair: Pair, time: f64) {
     // Not before it is in the tiles of the other for certain: when it got there is not to matter.
     let Some(near) = touch_of(model, state, body, member, OUTER, time) else { return };
     let Some(epoch) = state.dense.as_ref().map(|dense| dense.epoch) else { return };
-    let step = step_at(model, member, state.position(member, time));
+    let step = step_at(model, member, time, (state.position(member, time), state.velocity(member, time)));
     let soon = (met - 2.0 * step).max(near).max(time);
     let (kind, b) = (Kind::Reach, BodyId::of_dynamic(member));
     let stamp_a = state.stamps[body as usize];

@@ -85,7 +85,10 @@ pub(in crate::sim) fn note_too_few(model: &Model, state: &mut State, bodies: &[u
 
 /// The step of a body where it is, s.
 fn step_of(model: &Model, state: &State, body: u32, time: f64) -> f64 {
-    if model.is_ballistic() { model.dense_step } else { step_at(model, body, state.position(body, time)) }
+    if model.is_ballistic() {
+        return model.dense_step;
+    }
+    step_at(model, body, time, (state.position(body, time), state.velocity(body, time)))
 }
 
 /// How many bodies must move together that are struck this often.

@@ -45,7 +45,8 @@ pub(in crate::sim) fn find_step(model: &mut Arc<Model>, state: &State) -> bool {
 /// Length of a step, s: a power of two, so that grid times are exact, of at most √(2e-4·r/g) for the smallest radius
 /// and the largest acceleration of the bodies where they are. The pull of a point attractor, which grows as they come
 /// near, shortens steps where it is felt ([`step_at`]), but no further than for bodies that touch at its centre. Without
-/// forces bodies pass a fiftieth of the radius in a step. Under forces of the user's own alone, which may be next to nothing
+/// forces, or with ones so weak that most bodies fly faster than a fall through the map makes them, they pass a fiftieth of
+/// the radius in a step. Under forces of the user's own alone, which may be next to nothing
 /// just now, they pass a quarter at most.
 fn step_length(model: &Model, time: f64, at: impl Fn(u32) -> (DVec3, DVec3)) -> (f64, StepSource) {
     if model.params.dense_step > 0.0 {
@@ -53,11 +54,15 @@ fn step_length(model: &Model, time: f64, at: impl Fn(u32) -> (DVec3, DVec3)) -> 
     }
     let smallest = model.bodies.range_of_radii().0;
     let (mut without, mut within, mut fastest) = (0.0_f64, 0.0_f64, 0.0_f64);
+    // How many fly faster than a fall through the whole map makes them, and how many do not.
+    let (across, mut flying) = (model.grid.size.max_element(), [0, 0]);
     for body in model.present() {
         let (x, v) = at(body);
         let subject = model.subject(body, time, Place::exact(x), v);
         fastest = fastest.max(v.length());
-        without = without.max(acceleration(model, &subject, |_| 0.0));
+        let driven = acceleration(model, &subject, |_| 0.0);
+        without = without.max(driven);
+        flying[usize::from(v.length_squared() > 2.0 * driven * across)] += 1;
         within =
             within.max(acceleration(model, &subject, |intensity| intensity / (4.0 * smallest * smallest)));
     }
@@ -69,7 +74,8 @@ fn step_length(model: &Model, time: f64, at: impl Fn(u32) -> (DVec3, DVec3)) -> 
     let length =
         if without > 0.0 { power_of_two_below(fall_time(smallest, without)).min(longest) } else { longest };
     if model.forces.iter().any(|force| lasts(&force.law)) {
-        known(length, StepSource::Forces)
+        let is_flight = within == without && flying[1] > flying[0];
+        known(if is_flight { length.min(passed(WAY_IN_A_STEP)) } else { length }, StepSource::Forces)
     } else if fastest > 0.0 {
         known(length.min(passed(WAY_OF_RADIUS)), StepSource::Forces)
     } else {
@@ -91,20 +97,20 @@ fn known(length: f64, source: StepSource) -> (f64, StepSource) {
     if length > 0.0 { (length, source) } else { (0.0, StepSource::Nothing) }
 }
 
-/// How often the step of a body is halved for the pull of attractors at a place.
-pub(super) fn halvings_by_pull(model: &Model, body: u32, x: DVec3) -> u8 {
+/// How often the step of a body is halved for what drives it at a time, where it is as fast as it is.
+pub(super) fn halvings_by_pull(model: &Model, body: u32, time: f64, (x, v): (DVec3, DVec3)) -> u8 {
     if model.params.dense_step > 0.0 || model.is_ballistic() {
         return 0;
     }
-    let longest = fall_time(model.bodies.range_of_radii().0, undamped(model, body, 0.0, x).length());
+    let longest = fall_time(model.bodies.range_of_radii().0, undamped(model, body, time, (x, v)).length());
     // At a centre the pull is not a number: the shortest step there too.
     let is_short_enough = |halvings: &u8| halved(model.dense_step, *halvings) <= longest;
     (0..MOST_HALVINGS_BY_PULL).find(is_short_enough).unwrap_or(MOST_HALVINGS_BY_PULL)
 }
 
-/// The longest step of a body at a place, s.
-pub(in crate::sim) fn step_at(model: &Model, body: u32, x: DVec3) -> f64 {
-    halved(model.dense_step, halvings_by_pull(model, body, x))
+/// The longest step of a body in a state at a time, s.
+pub(in crate::sim) fn step_at(model: &Model, body: u32, time: f64, at: (DVec3, DVec3)) -> f64 {
+    halved(model.dense_step, halvings_by_pull(model, body, time, at))
 }
 
 /// s.

@@ -268,7 +268,7 @@ fn reached_frozen(
         let (x, v) = (path.position(time), path.velocity(time));
         let gap =
             (x - state.segments[other as usize].x).length() - model.radius(member.body) - model.radius(other);
-        let step = step_at(model, member.body, x);
+        let step = step_at(model, member.body, time, (x, v));
         let way = step * (v.length() + step * path.segment.a.length());
         if gap <= 2.0 * way {
             numbers.insert(number);

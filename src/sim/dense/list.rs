@@ -25,7 +25,7 @@ pub(super) fn is_old(model: &Model, state: &State, dense: &Dense, time: f64) -> 
             let path = state.path(member.body);
             let (x, v) = (path.position(time), path.velocity(time));
             let way = (x - member.listed_at).length();
-            let step = step_at(model, member.body, x);
+            let step = step_at(model, member.body, time, (x, v));
             way + step * (v.length() + step * path.segment.a.length()) > member.margin
         })
 }
@@ -55,7 +55,7 @@ fn place_members(model: &Model, state: &mut State, dense: &mut Dense, time: f64)
         let path = state.path(member.body);
         let (x, v) = (path.position(time), path.velocity(time));
         let radius = model.radius(member.body);
-        let skin = (SKIN * radius).max(SKIN_STEPS * step_at(model, member.body, x) * v.length());
+        let skin = (SKIN * radius).max(SKIN_STEPS * step_at(model, member.body, time, (x, v)) * v.length());
         member.listed_at = x;
         member.margin = skin.max(member.widened);
         member.widened = 0.0;

@@ -26,9 +26,9 @@ fn body_of(model: &Model, state: &State, member: &Member, time: f64) -> Stepped 
     let inverse_mass = state.inverse_mass(model, member.body);
     let is_held = inverse_mass == 0.0;
     let x = path.position(time);
-    let halvings_by_pull = halvings_by_pull(model, member.body, x);
-    let step = halved(model.dense_step, halvings_by_pull);
     let v = if is_held { DVec3::ZERO } else { path.velocity(time) };
+    let halvings_by_pull = halvings_by_pull(model, member.body, time, (x, v));
+    let step = halved(model.dense_step, halvings_by_pull);
     let a = if inverse_mass > 0.0 { driven(model, member.body, (x, v), time, step) } else { DVec3::ZERO };
     // Where forces change along the way, the leapfrog's other half of the kick.
     let kick = if member.is_stepped && !is_held {

@@ -10,6 +10,8 @@ use crate::scene::Map;
 pub(in crate::sim) struct Grid {
     pub tile_size: DVec3,
     pub counts: [u32; 3],
+    /// Of the map, m: whatever the tiles are.
+    pub size: DVec3,
 }
 
 /// A box of tiles, both ends included.
@@ -34,14 +36,14 @@ impl Grid {
                 counts[axis] = counts[axis].div_ceil(2);
             }
         }
-        Self { tile_size: tile_size(counts), counts }
+        Self { tile_size: tile_size(counts), counts, size: map.size }
     }
 
     /// The same map with its tiles merged 2×2×2.
     pub fn coarser(&self) -> Self {
         let size = self.tile_size * DVec3::from_array(self.counts.map(f64::from));
         let counts = self.counts.map(|count| count.div_ceil(2));
-        Self { tile_size: size / DVec3::from_array(counts.map(f64::from)), counts }
+        Self { tile_size: size / DVec3::from_array(counts.map(f64::from)), counts, ..*self }
     }
 
     pub fn all(&self) -> TileRange {
