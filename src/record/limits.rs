@@ -59,8 +59,8 @@ impl Watch {
     }
 }
 
-/// Predictions carried out between two looks at the clock: a Δt may hold millions that are no events.
-const PREDICTIONS: u32 = 16;
+/// Predictions carried out between two looks at the clock or the budget: a Δt may hold millions that are no events.
+pub const PREDICTIONS: u32 = 16;
 
 /// Goes on to `until` (s) and hands out the events on the way; `Ok(Some(_))` if a limit ended it earlier. Then
 /// the simulation is right after its last event, and can go on. `events` counts those of the whole run.

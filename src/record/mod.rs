@@ -46,7 +46,7 @@ pub use frame::{
 };
 pub use inline::InlineRunner;
 pub use ledger::{EventRow, Ledger, Past};
-pub use limits::{Exceeded, LATEST_TIME, Limits, Watch, advance};
+pub use limits::{Exceeded, LATEST_TIME, Limits, PREDICTIONS, Watch, advance};
 pub use moment::Moment;
 pub use motion::RecordedMotion;
 pub use recording::BUDGET as DEFAULT_RECORDING_BYTES;

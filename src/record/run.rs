@@ -7,15 +7,13 @@ use super::drift::Drift;
 use super::frame::WorstOverlap;
 use super::grid::StepGrid;
 use super::ledger::Names;
+use super::limits::PREDICTIONS;
 use super::moment::Moment;
 use super::overlaps::Overlaps;
 use super::recording::{Future, Recording};
 use super::ticks::Tick;
 use crate::scene::Scene;
 use crate::sim::{Counters, Event, Fault, Progress, SimEdit, Simulation};
-
-/// Predictions carried out between two looks at the budget: a Δt may hold millions that are no events.
-pub(super) const PREDICTIONS: u32 = 16;
 
 /// Portions of work on what is left at one time; more is no ordinary scene.
 const MOST_AT_ONCE: u32 = 10_000;

@@ -2,8 +2,9 @@
 //! That is done in portions, so that it can be given up for another place.
 
 use super::grid::StepGrid;
+use super::limits::PREDICTIONS;
 use super::moment::Moment;
-use super::run::{PREDICTIONS, Run};
+use super::run::Run;
 use crate::sim::{Event, Progress};
 
 impl Run {

@@ -7,8 +7,14 @@ pub fn number(value: f64, digits: usize) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// `value` with at most three significant digits, or with all before the point.
+/// `value` with at most three significant digits, or with all before the point: as `1.5e300` where these would be many, or
+/// the value too small to be written without one.
 pub(super) fn short(value: f64) -> String {
+    if value.is_normal() && !(1e-9..1e6).contains(&value.abs()) {
+        let text = format!("{value:.2e}");
+        let (mantissa, power) = text.split_once('e').unwrap_or((&text, "0"));
+        return format!("{}e{power}", mantissa.trim_end_matches('0').trim_end_matches('.'));
+    }
     let exponent = if value.is_normal() { libm::log10(value.abs()).floor() } else { 0.0 };
     number(value, (2.0 - exponent).clamp(0.0, 12.0) as usize)
 }
@@ -45,6 +51,16 @@ pub(super) fn round_down_125(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    // Symptom: a force of 1e300 N was written with 300 digits. Expected: three, and the power of ten.
+    #[test]
+    fn short_numbers_are_short() {
+        let written =
+            [0.0, -0.0, 1e300, -1.5e300, 1.234e6, 123_456.7, 12.345, 0.001_234, 1e-9, 1.5e-12].map(short);
+        let expected =
+            ["0", "0", "1e300", "-1.5e300", "1.23e6", "123457", "12.3", "0.00123", "0.000000001", "1.5e-12"];
+        assert_eq!(written, expected);
+    }
 
     #[test]
     fn scales_are_written_with_their_one_digit() {

@@ -4,11 +4,8 @@ use super::recorder::Recorder;
 use crate::cli::CliError;
 use crate::cli::interrupt::Interrupt;
 use crate::cli::samples::SampleGrid;
-use crate::record::{Exceeded, Watch};
+use crate::record::{Exceeded, PREDICTIONS, Watch};
 use crate::sim::{Fault, Progress, Simulation};
-
-/// Predictions carried out between two looks at the clock: a Δt may hold millions that are no events.
-const PREDICTIONS: u32 = 16;
 
 /// Why a run ended.
 #[derive(Clone, Debug, PartialEq)]

@@ -112,8 +112,7 @@ fn plan(ui: &mut Ui, context: &AppContext<'_>) {
         if plan.stepped_groups {
             let help = "Bodies of a heap go on by this step, once they touch too often for events; Dense step sets it";
             ui.label("Group step").on_hover_text(help);
-            let step = format!("{} s", numbers::significant(plan.group_step, 4));
-            ui.label(RichText::new(step).color(tones(ui).weak));
+            ui.label(RichText::new(group_step(plan.group_step)).color(tones(ui).weak));
             ui.end_row();
         }
     });
@@ -122,6 +121,15 @@ fn plan(ui: &mut Ui, context: &AppContext<'_>) {
         for reason in &plan.left_out {
             ui.label(RichText::new(format!("• {reason}")).small().color(tones(ui).weak));
         }
+    }
+}
+
+/// An automatic one is found when bodies meet: before, there is none to tell.
+fn group_step(step: f64) -> String {
+    if step > 0.0 {
+        format!("{} s", numbers::significant(step, 4))
+    } else {
+        "automatic: not known before something happens".to_owned()
     }
 }
 
