@@ -168,3 +168,27 @@ fn a_ball_that_stands_in_air_can_fall() {
     let expected = 900.0 / GRAVITY * libm::log(libm::cosh(GRAVITY / 30.0));
     assert!((fallen - expected).abs() <= 1e-11, "{fallen} of {expected}");
 }
+
+/// Symptom: a ball of 1 kg that fell in a medium of 1e12 kg/m³ took 3 million steps for each second, for ever. Expected: it is at its
+/// terminal speed at once, and then its way is that speed times the time. Cause: steps cannot be much longer than the time
+/// in which drag brings a disturbed body back to that speed, 1e-7 s.
+#[test]
+fn thick_air_costs_no_more_than_thin() {
+    for exponent in 3..=15 {
+        let density = libm::pow(10.0, f64::from(exponent));
+        let k = 0.25 * density * std::f64::consts::PI * 0.01;
+        let body = ball(1, DVec3::splat(5.0), DVec3::X).radius(0.1);
+        let mut sim = simulation(&empty().gravity(-GRAVITY).air(density).body(body));
+        // Some 80 times as long as it takes the thinnest to bring it to a part of e.
+        sim.begin(5.0);
+        sim.finish(&mut |_, _| {}).expect("it falls");
+        let terminal = (GRAVITY / k).sqrt();
+        let speed = -state_of(&sim, 1).velocity.y;
+        assert!((speed / terminal - 1.0).abs() <= 1e-14, "1e{exponent} kg/m³: {speed} of {terminal}");
+        let evaluations = sim.counters().force_evaluations;
+        assert!(evaluations < 50_000, "1e{exponent} kg/m³: {evaluations} evaluations");
+        let energy = sim.energy().residual.expect("all forces have potentials");
+        let momentum = sim.momentum().residual;
+        assert!(energy.abs().max(momentum) <= 1e-12, "1e{exponent} kg/m³: {energy:e}, {momentum:e}");
+    }
+}

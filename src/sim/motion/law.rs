@@ -7,7 +7,7 @@ use super::control::{Limits, are_sound};
 use super::plunge::{Onward, way_on};
 use super::radau::{RadauStart, radau_step};
 use super::smoothness::drag_of;
-use super::tolerance::{FOR_EVER, INSIDE, LONGEST_STEP};
+use super::tolerance::{FOR_EVER, INSIDE, LONGEST_STEP, TERMINAL};
 use crate::sim::books::book_segment;
 use crate::sim::force::Law;
 use crate::sim::model::Model;
@@ -28,6 +28,8 @@ pub(in crate::sim) fn begin_segment(
     let (segment, column) = if model.is_ballistic() {
         let subject = model.subject(body, time, Place::exact(x), v);
         (Segment::ballistic(time, x, v, model.applied_acceleration(&subject)), None)
+    } else if is_terminal(model, body, x, v) {
+        (Segment::ballistic(time, x, v, DVec3::ZERO), None)
     } else {
         let why = |error| if in_core(model, x) { SegmentError::InCore } else { error };
         integrated(model, state, body, time, (x, v)).map_err(why)?
@@ -35,6 +37,18 @@ pub(in crate::sim) fn begin_segment(
     check(model, &segment)?;
     place(model, state, body, segment, column);
     Ok(())
+}
+
+/// Whether a body in a uniform field has its terminal velocity, to rounding. Then it flies straight on for ever, which steps
+/// would follow at most at the pace at which thick drag brings it back there, ever so slow as it falls.
+fn is_terminal(model: &Model, body: u32, x: DVec3, v: DVec3) -> bool {
+    let is_drag = |law: &Law| matches!(law, Law::Drag { .. });
+    if !model.forces.iter().all(|force| force.law.is_uniform() || is_drag(&force.law)) {
+        return false;
+    }
+    let subject = model.subject(body, 0.0, Place::exact(x), v);
+    let drag = drag_of(model, body) * v.length_squared();
+    model.applied_acceleration(&subject).length() <= TERMINAL * drag
 }
 
 /// Lets a body stay where it is from `time` on. An error leaves all as it was.

@@ -40,6 +40,10 @@ pub(super) const LONGEST_GUESS: f64 = 4.5;
 /// before it does. A slower one is followed in more steps than it needs, a pulse between two steps is missed.
 pub(super) const LONGEST_STEP: f64 = 100.0;
 
+/// A body of which drag leaves less acceleration than this part of its own falls at its terminal speed, to half of that. Smaller
+/// is lost in what the rounding of a step makes of the speed, and missed for ever; larger is seen.
+pub(super) const TERMINAL: f64 = 64.0 * f64::EPSILON;
+
 /// Steps of a body that nothing moves are never longer than this, s: it stands for ever.
 pub(super) const FOR_EVER: f64 = 1e100;
 
