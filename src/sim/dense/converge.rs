@@ -255,8 +255,13 @@ mod tests {
     }
 
     fn solved(bodies: &[Stepped], contacts: &mut Vec<Contact>) -> Solution {
+        solved_in_a_jam(bodies, contacts, 0.0)
+    }
+
+    /// Where earlier steps have given energy, J.
+    fn solved_in_a_jam(bodies: &[Stepped], contacts: &mut Vec<Contact>, given: f64) -> Solution {
         let step = Step { h: H, radius: RADIUS };
-        let problem = Problem { bodies, step, given: 0.0, law: &|_| None };
+        let problem = Problem { bodies, step, given, law: &|_| None };
         solve(&problem, &mut System::default(), contacts, &mut Rubbing::default(), |_, _| {})
     }
 
@@ -272,6 +277,26 @@ mod tests {
         let carried = contacts.iter().find(|contact| contact.a == 140).map_or(0.0, |contact| contact.impulse);
         let weight = uneven.iter().sum::<f64>() * G * H;
         assert!((carried - weight).abs() < 1e-6 * weight, "{carried} of {weight}");
+    }
+
+    /// A ball squeezed between two walls by impulses that balance each other and bear nothing.
+    #[test]
+    fn impulses_that_bear_nothing_fade_in_a_jam_that_was_given_energy() {
+        let bodies = [Stepped { a: DVec3::ZERO, ..ball(1.0) }];
+        let squeeze = 100.0;
+        let side = |normal: DVec3| Contact { normal, impulse: squeeze, ..lies(&bodies, 0, FIXED, 0.0) };
+        let pressed_after_steps = |given: f64| {
+            let mut contacts = vec![side(DVec3::X), side(DVec3::NEG_X)];
+            for _ in 0..10 {
+                let solution = solved_in_a_jam(&bodies, &mut contacts, given);
+                assert!(solution.has_converged, "{solution:?}");
+            }
+            contacts.iter().map(|contact| contact.impulse).fold(0.0, f64::max)
+        };
+        let allowed = allowed_gain(&bodies);
+        assert_eq!(pressed_after_steps(0.5 * MOST_BEFORE_FADING * allowed), squeeze);
+        let faded = pressed_after_steps(2.0 * MOST_BEFORE_FADING * allowed);
+        assert!((faded - squeeze * SHARE_IN_A_JAM.powi(10)).abs() < 1e-9 * squeeze, "{faded}");
     }
 
     /// A ball wedged between normals that all but oppose each other: what each sweep changes is tolerated long before
