@@ -125,17 +125,13 @@ impl Task {
 
 /// Why "next event" stops looking after so many empty Δt and this one.
 fn no_event(run: &mut Run, empty: u32) -> Option<String> {
-    if run.is_settled() && run.simulation.is_over() {
-        let text = if run.is_over() {
-            "there is no event after this: nothing moves, and no force acts on what could"
-        } else {
-            "there is no event after this: what moves flies on and meets nothing any more"
-        };
-        return Some(text.into());
-    }
+    let is_certain = run.is_settled() && run.simulation.is_over();
     // A look at all bodies costs.
-    if empty.is_multiple_of(STEPS_BETWEEN_LOOKS) && run.is_over() {
+    if (is_certain || empty.is_multiple_of(STEPS_BETWEEN_LOOKS)) && run.is_over() {
         return Some("there is no event after this: nothing moves, and no force acts on what could".into());
+    }
+    if is_certain {
+        return Some("there is no event after this: what moves flies on and meets nothing any more".into());
     }
     (empty >= MOST_STEPS_TO_EVENT).then(|| format!("no event within {MOST_STEPS_TO_EVENT} Δt after this"))
 }
