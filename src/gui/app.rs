@@ -232,7 +232,7 @@ impl App {
         };
         self.problems.refresh(&context);
         self.ledger.finish_writing(&ctx, &context);
-        let bar = |margin| egui::Frame::side_top_panel(ui.style()).inner_margin(margin);
+        let bar = |margin| egui::Frame::new().inner_margin(margin);
         let (menu_bar, tool_bar) = (bar(egui::Margin::symmetric(6, 2)), bar(egui::Margin::symmetric(6, 3)));
         let flush = bar(egui::Margin::ZERO);
         egui::Panel::top("menu").frame(menu_bar).show(ui, |ui| {
@@ -450,6 +450,12 @@ impl eframe::App for App {
         self.pace.frame_s = started.elapsed().as_secs_f64();
         self.was_typing = ctx.text_edit_focused();
         self.run_script(&ctx);
+    }
+
+    /// The colour of the panels, which so need no ground of their own: where the processor draws, each fill of the window takes
+    /// some milliseconds.
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        visuals.panel_fill.to_normalized_gamma_f32()
     }
 
     fn persist_egui_memory(&self) -> bool {

@@ -254,9 +254,6 @@ struct Frame<'c> {
 impl Behavior<Panel> for Frame<'_> {
     fn pane_ui(&mut self, ui: &mut Ui, _: TileId, panel: &mut Panel) -> UiResponse {
         let rect = ui.max_rect();
-        if !matches!(panel, Panel::View(_)) {
-            ui.painter().rect_filled(rect, 0.0, ui.visuals().panel_fill);
-        }
         ui.set_clip_rect(rect.intersect(ui.clip_rect()));
         if self.contents.show(ui, *panel) { UiResponse::DragStarted } else { UiResponse::None }
     }

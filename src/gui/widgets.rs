@@ -121,6 +121,18 @@ pub fn severity_icon(ui: &mut Ui, is_error: bool) -> Response {
     response
 }
 
+/// A cell whose text ends with "…" where it is wider than its column. It needs no clipping of its own, only that of the rows:
+/// what is clipped differently is drawn by itself, and so many cells would be felt in each frame.
+pub fn short_cell(row: &mut egui_extras::TableRow<'_, '_>, clip: Rect, text: RichText, help: &str) {
+    row.col(|ui| {
+        ui.set_clip_rect(clip);
+        let response = ui.add(egui::Label::new(text).truncate());
+        if !help.is_empty() {
+            response.on_hover_text(help);
+        }
+    });
+}
+
 /// One cell of a table's row.
 pub fn cell(row: &mut egui_extras::TableRow<'_, '_>, text: RichText, help: &str) {
     row.col(|ui| {

@@ -8,13 +8,13 @@ mod written;
 
 use std::sync::Arc;
 
-use egui::{Context, ProgressBar, RichText, Sense, Ui};
+use egui::{Context, ProgressBar, Rect, RichText, Sense, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
 
 use super::colors::tones;
 use super::context::{AppContext, Message};
 use super::theme::ROW_HEIGHT;
-use super::widgets::{cell, mono};
+use super::widgets::{mono, short_cell};
 use crate::editor::Action;
 use crate::record::EventRow;
 use columns::{BODIES, COLUMNS, COSTS, KIND, LedgerColumn, joined};
@@ -84,10 +84,11 @@ impl LedgerPanel {
                     header.col(|ui| chosen = title(ui, nth, order).or(chosen));
                 }
             })
-            .body(|body| {
+            .body(|mut body| {
+                let clip = body.ui_mut().clip_rect();
                 body.rows(ROW_HEIGHT, listed.len(), |mut row| {
                     if let Some(event) = listed.row(ledger, row.index()) {
-                        show_row(&mut row, context, event, shown);
+                        show_row(&mut row, context, event, (shown, clip));
                     }
                 });
             });
@@ -189,7 +190,7 @@ fn show_row(
     row: &mut TableRow<'_, '_>,
     context: &AppContext<'_>,
     event: &Arc<EventRow>,
-    columns: &[LedgerColumn],
+    (columns, clip): (&[LedgerColumn], Rect),
 ) {
     let frame = context.session.frame();
     let is_shown = context.session.shown_event().is_some_and(|shown| shown.event.seq == event.event.seq);
@@ -199,7 +200,7 @@ fn show_row(
         let text = (column.text)(context, event);
         let help = help(nth, event, &text);
         let text = if matches!(nth, KIND | BODIES) { RichText::new(text) } else { mono(text) };
-        cell(row, if is_to_come { text.weak() } else { text }, &help);
+        short_cell(row, clip, if is_to_come { text.weak() } else { text }, &help);
     }
     let response = row.response();
     if response.clicked() {

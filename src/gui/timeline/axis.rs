@@ -3,7 +3,7 @@
 use egui::Rect;
 
 /// From left to right.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Axis {
     pub line: Rect,
     /// s.

@@ -2,6 +2,8 @@
 //! shown now. A click or a drag goes to a time, the wheel zooms, the right button or Ctrl moves what is shown, Shift marks a
 //! range that playing repeats.
 
+use std::sync::{Arc, Weak};
+
 use egui::{
     Align2, Color32, FontId, Key, Mesh, PointerButton, Pos2, Rect, Response, Role, Sense, Stroke, Ui,
 };
@@ -33,6 +35,16 @@ pub(super) struct RunLine {
     /// Where a range began that is being drawn, s.
     range_from: Option<f64>,
     bookmarks: bookmarks::Flags,
+    density: Density,
+}
+
+/// The events of a frame by time, as it was drawn last.
+#[derive(Default)]
+struct Density {
+    frame: Weak<Frame>,
+    axis: Option<Axis>,
+    color: Color32,
+    bars: Arc<Mesh>,
 }
 
 impl RunLine {
@@ -53,7 +65,7 @@ impl RunLine {
             return;
         };
         let axis = self.axis(rect, whole);
-        draw(ui, context, &axis, tones);
+        self.draw(ui, context, &axis, tones);
         memory(ui, context, rect, tones);
         self.bookmarks.show(ui, context, &axis);
         self.answer(context, &response, &axis, whole, ui);
@@ -128,6 +140,34 @@ impl RunLine {
             None => {}
         }
     }
+
+    fn draw(&mut self, ui: &Ui, context: &AppContext<'_>, axis: &Axis, tones: Tones) {
+        let frame = context.session.frame();
+        let painter = ui.painter().with_clip_rect(axis.line.expand2(vec2(LEFT, 20.0)));
+        let bottom = axis.line.bottom();
+        let clamped = |time: f64| axis.x(time).clamp(axis.line.left(), axis.line.right());
+        let known = clamped(frame.recorded.from)..=clamped(frame.recorded.to);
+        if let Some((from, to)) = context.session.travel().range() {
+            let rect = Rect::from_x_y_ranges(clamped(from)..=clamped(to), axis.line.y_range());
+            painter.rect_filled(rect, 0.0, tones.accent.gamma_multiply(0.25));
+        }
+        painter.add(self.density.bars(frame, axis, tones.strong.gamma_multiply(0.55)));
+        painter.hline(axis.line.x_range(), bottom, Stroke::new(1.0, tones.line));
+        painter.hline(known, bottom, Stroke::new(2.0, tones.accent));
+        ticks(&painter, frame, axis, tones.weak);
+        scale(&painter, axis, tones.weak);
+        for time in &frame.recorded.edits {
+            let x = axis.x(*time);
+            painter.vline(x, axis.line.y_range(), Stroke::new(1.0, tones.warning));
+        }
+        dropped(&painter, frame, axis, tones);
+        let now = clamped(frame.time);
+        painter.vline(
+            now,
+            axis.line.top()..=bottom + 3.0,
+            Stroke::new(2.0, color32(context.palette().highlight)),
+        );
+    }
 }
 
 /// The arrow keys step while the timeline has the keyboard: by Δt, with Shift by events.
@@ -149,38 +189,28 @@ fn whole(frame: &Frame) -> Option<(f64, f64)> {
     (end > 0.0).then_some((0.0, end))
 }
 
-fn draw(ui: &Ui, context: &AppContext<'_>, axis: &Axis, tones: Tones) {
-    let frame = context.session.frame();
-    let painter = ui.painter().with_clip_rect(axis.line.expand2(vec2(LEFT, 20.0)));
-    let bottom = axis.line.bottom();
-    let clamped = |time: f64| axis.x(time).clamp(axis.line.left(), axis.line.right());
-    let known = clamped(frame.recorded.from)..=clamped(frame.recorded.to);
-    if let Some((from, to)) = context.session.travel().range() {
-        let rect = Rect::from_x_y_ranges(clamped(from)..=clamped(to), axis.line.y_range());
-        painter.rect_filled(rect, 0.0, tones.accent.gamma_multiply(0.25));
+impl Density {
+    /// Bars whose heights grow with the logarithm of how many events there are; made anew when something else is to be seen.
+    fn bars(&mut self, frame: &Arc<Frame>, axis: &Axis, color: Color32) -> Arc<Mesh> {
+        let now = (Arc::as_ptr(frame), Some(*axis), color);
+        if now != (self.frame.as_ptr(), self.axis, self.color) {
+            *self = Self {
+                frame: Arc::downgrade(frame),
+                axis: Some(*axis),
+                color,
+                bars: density(frame, axis, color).into(),
+            };
+        }
+        self.bars.clone()
     }
-    density(&painter, frame, axis, tones.strong.gamma_multiply(0.55));
-    painter.hline(axis.line.x_range(), bottom, Stroke::new(1.0, tones.line));
-    painter.hline(known, bottom, Stroke::new(2.0, tones.accent));
-    ticks(&painter, frame, axis, tones.weak);
-    scale(&painter, axis, tones.weak);
-    for time in &frame.recorded.edits {
-        let x = axis.x(*time);
-        painter.vline(x, axis.line.y_range(), Stroke::new(1.0, tones.warning));
-    }
-    dropped(&painter, frame, axis, tones);
-    let now = clamped(frame.time);
-    painter.vline(
-        now,
-        axis.line.top()..=bottom + 3.0,
-        Stroke::new(2.0, color32(context.palette().highlight)),
-    );
 }
 
-/// How many events there are in each stretch of a point, as bars whose heights grow with the logarithm.
-fn density(painter: &egui::Painter, frame: &Frame, axis: &Axis, color: Color32) {
+/// How many events there are in each stretch of a point.
+fn density(frame: &Frame, axis: &Axis, color: Color32) -> Mesh {
+    // One mesh of all: a thousand lines with smoothed edges are felt in each frame.
+    let mut bars = Mesh::default();
     if frame.ledger.is_empty() {
-        return;
+        return bars;
     }
     let columns = axis.line.width().max(1.0) as usize;
     let times = (0..=columns).map(|nth| axis.from + (axis.to - axis.from) * nth as f64 / columns as f64);
@@ -188,14 +218,12 @@ fn density(painter: &egui::Painter, frame: &Frame, axis: &Axis, color: Color32) 
     let counts: Vec<usize> = before.windows(2).map(|pair| pair[1].saturating_sub(pair[0])).collect();
     let height = |count: usize| libm::log1p(count as f64);
     let most = counts.iter().copied().max().map_or(1.0, height).max(1.0);
-    // One mesh of all: a thousand lines with smoothed edges are felt in each frame.
-    let mut bars = Mesh::default();
     for (column, count) in counts.into_iter().enumerate().filter(|(_, count)| *count > 0) {
         let foot = pos2(axis.line.left() + column as f32, axis.line.bottom());
         let length = ((axis.line.height() - 4.0) * (height(count) / most) as f32).max(2.0);
         bars.add_colored_rect(Rect::from_two_pos(foot, foot + vec2(1.0, -length)), color);
     }
-    painter.add(bars);
+    bars
 }
 
 /// Where the Δt end, if that can be told apart.

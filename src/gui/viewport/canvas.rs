@@ -63,8 +63,7 @@ impl Canvas {
     /// else as soon as it has its turn.
     pub fn draw(&self, ui: &Ui, (view, waits): (usize, bool), rect: Rect, list: &Arc<DrawList>) {
         let painter = ui.painter_at(rect);
-        let [top, _] = list.background;
-        painter.rect_filled(rect, 0.0, color32(top));
+        let [ground, _] = list.background;
         if let Some(gpu) = &self.gpu {
             let now_s = ui.input(|input| input.time);
             let (quality, again_s) = gpu.drafts().quality(view, (list.revision, waits), now_s);
@@ -76,6 +75,7 @@ impl Canvas {
                 egui_glow::CallbackFn::new(move |info, _| gpu.paint((view, quality), &list, &info));
             painter.add(egui::PaintCallback { rect, callback: Arc::new(callback) });
             if let Some(failure) = self.failure() {
+                painter.rect_filled(rect, 0.0, color32(ground));
                 let font = FontId::proportional(13.0);
                 let color = ui.visuals().error_fg_color;
                 painter.text(rect.center(), Align2::CENTER_CENTER, failure, font, color);

@@ -237,7 +237,6 @@ impl Views {
     pub fn show(&mut self, ui: &mut Ui, index: usize, context: &AppContext<'_>) -> bool {
         let area = ui.available_rect_before_wrap();
         ui.advance_cursor_after_rect(area);
-        ui.painter().rect_filled(area, 0.0, super::colors::tones(ui).line);
         let Some(shown) = context.shown else {
             pane::nothing_to_show(ui, area, context, index == self.active);
             return false;

@@ -199,7 +199,6 @@ fn triple(place: DVec3) -> String {
 /// In place of the views, when there is no scene to show.
 pub fn nothing_to_show(ui: &mut Ui, area: Rect, context: &AppContext<'_>, says_why: bool) {
     let tones = tones(ui);
-    ui.painter().rect_filled(area, 0.0, ui.visuals().panel_fill);
     if !says_why {
         return;
     }
