@@ -184,6 +184,14 @@ pub(super) const VIEWING: &[CommandInfo] = &[
     )
     .window(WindowCommand::ShowXml)
     .keys(&[Shortcut::ctrl('U')]),
+    row(
+        Menu::View,
+        5,
+        "show_costs",
+        "Costs of events",
+        "Shows with the events what the core did for each, and which predicted impacts the one shown cancelled",
+    )
+    .window(WindowCommand::ShowCosts),
     row(Menu::View, 5, "reset_layout", "Reset the panels", "Puts all panels where they are in a new window")
         .window(WindowCommand::ResetLayout),
     row(Menu::View, 5, "switch_colors", "Dark or light colours", "Switches the colours of the window")

@@ -138,6 +138,8 @@ pub enum WindowCommand {
     ShowAccuracy,
     /// Shows the panel with the text of the scene's file.
     ShowXml,
+    /// Shows what the core did for each event, and what the one shown cancelled.
+    ShowCosts,
     SwitchColors,
     /// All panels where they are in a new window.
     ResetLayout,

@@ -44,6 +44,11 @@ impl Session {
         self.run.show_crossings(&keys);
     }
 
+    /// Whether frames at an event have from now on the predictions that it cancelled.
+    pub fn show_cancelled(&mut self, wanted: bool) {
+        self.run.show_cancelled(wanted);
+    }
+
     /// Whether the frames from now on have the occupied tiles.
     pub fn show_tiles(&mut self, wanted: bool) {
         self.run.show_tiles(wanted);

@@ -27,6 +27,8 @@ pub(super) struct Run {
     paths: Option<PathSpan>,
     /// Of which bodies it was asked for the tile crossings.
     crossings: Arc<[NodeKey]>,
+    /// Whether it was asked for the predictions that an event cancelled.
+    cancelled: bool,
     /// Whether it was asked for the occupied tiles.
     tiles: bool,
     pub frame: Arc<Frame>,
@@ -63,6 +65,7 @@ impl Run {
             halted: 0,
             paths: None,
             crossings: Arc::default(),
+            cancelled: false,
             tiles: false,
             playback,
             shown_event: None,
@@ -352,6 +355,14 @@ impl Run {
         if *self.crossings != *keys {
             self.crossings = keys.into();
             self.send(RunCommand::Crossings(self.crossings.clone()));
+        }
+    }
+
+    /// Whether frames at an event have the predictions that it cancelled.
+    pub fn show_cancelled(&mut self, wanted: bool) {
+        if self.cancelled != wanted {
+            self.cancelled = wanted;
+            self.send(RunCommand::Cancelled(wanted));
         }
     }
 

@@ -158,6 +158,7 @@ impl App {
         self.session.show_paths(self.views.show_overlay("trails").then_some(viewport::PATHS));
         self.session.show_tiles(self.views.show_overlay("tiles"));
         self.session.show_crossings(self.timeline.shows_crossings());
+        self.session.show_cancelled(self.ledger.shows_cancelled());
         let blocked = self.session.question().is_some()
             || self.dialogs.are_open()
             || egui::Popup::is_any_open(ctx)
@@ -357,6 +358,10 @@ impl App {
             }
             WindowCommand::ShowAccuracy => self.dock.show_tall(Panel::Accuracy, TALL),
             WindowCommand::ShowXml => self.dock.show_tall(Panel::Xml, TALL),
+            WindowCommand::ShowCosts => {
+                self.dock.bring_to_front(Panel::Events);
+                self.ledger.show_costs();
+            }
             WindowCommand::ResetLayout => self.dock.reset(),
             WindowCommand::DesignTool(index) => return self.use_tool(index),
             WindowCommand::Find => {

@@ -11,7 +11,7 @@ use super::numbers::{significant, tiny};
 use super::widgets::{mono, severity_icon};
 use crate::editor::Action;
 use crate::record::Frame;
-use crate::scene::Shape;
+use crate::scene::Scene;
 
 /// Residuals above this, and overlaps in metres, deserve a second look. Below, nothing can be seen.
 const NOTICEABLE: f64 = 1e-6;
@@ -36,7 +36,8 @@ impl Figures {
     fn of(context: &AppContext<'_>) -> Self {
         let frame = context.session.frame();
         let overlap = frame.worst_overlap;
-        let allowed = if overlap.is_of_stepped { OF_STEPPED * smallest_radius(context) } else { 0.0 };
+        let smallest = || context.scene().and_then(Scene::smallest_radius).unwrap_or(0.0);
+        let allowed = if overlap.is_of_stepped { OF_STEPPED * smallest() } else { 0.0 };
         Self {
             allowed: allowed.max(NOTICEABLE),
             energy: frame.energy.and_then(|energy| energy.residual),
@@ -62,16 +63,6 @@ impl Figures {
             self.events
         )
     }
-}
-
-/// Of the moving bodies, m.
-fn smallest_radius(context: &AppContext<'_>) -> f64 {
-    let bodies = context.scene().into_iter().flat_map(|scene| &scene.bodies);
-    let radii = bodies.filter(|body| body.is_dynamic()).filter_map(|body| match body.shape {
-        Shape::Sphere { radius } => Some(radius),
-        Shape::Plane { .. } | Shape::Unbuilt { .. } => None,
-    });
-    radii.reduce(f64::min).unwrap_or(0.0)
 }
 
 /// In a narrow window the errors alone, with `behind` points left for what comes next.

@@ -10,8 +10,8 @@ use super::ways::PathSpan;
 use crate::scene::{NodeKey, Scene};
 use crate::sim::{Method, SimEdit};
 
-/// Commands are carried out in the order sent, between events. All but `Load`, `LoadEdited`, `Reset`, `Method`, `Budget`, `Paths`, `Crossings` and
-/// `Tiles` are refused (and ignored) while no simulation is loaded. What is recorded is gone through by looking it up; what is not, by
+/// Commands are carried out in the order sent, between events. All but `Load`, `LoadEdited`, `Reset`, `Method`, `Budget`, `Paths`, `Crossings`,
+/// `Cancelled` and `Tiles` are refused (and ignored) while no simulation is loaded. What is recorded is gone through by looking it up; what is not, by
 /// simulating.
 #[derive(Clone, Debug)]
 pub enum RunCommand {
@@ -91,6 +91,8 @@ pub enum RunCommand {
     Paths(Option<PathSpan>),
     /// Of which bodies frames have the tile crossings; of none by default.
     Crossings(Arc<[NodeKey]>),
+    /// Whether frames at an event have the predictions that it cancelled; not by default, for that means simulating again.
+    Cancelled(bool),
     /// Whether frames have the occupied tiles; not by default, for listing them costs as much as much else of a frame.
     Tiles(bool),
 }

@@ -8,7 +8,7 @@ use super::file::Written;
 use super::ledger::{EventRow, Ledger};
 use super::motion::RecordedMotion;
 use super::ticks::Division;
-use super::ways::{BodyPath, Crossing, ImpactBody};
+use super::ways::{BodyPath, Cancelled, Crossing, ImpactBody};
 use crate::scene::{Diagnostic, NodeKey};
 use crate::sim::{ContactState, Counters, Energy, Method, Momentum, Plan, Rotation, SteppedBodies, Tiling};
 
@@ -174,6 +174,8 @@ pub struct Frame {
     pub recorded: Arc<Recorded>,
     /// The bodies of the event that is right now, if one is.
     pub at_impact: Arc<Vec<ImpactBody>>,
+    /// What the event that is right now cancelled, if that is asked for, as soon as it is known.
+    pub cancelled: Option<Arc<Cancelled>>,
     /// Ways of the bodies, if they are asked for.
     pub paths: Arc<Vec<BodyPath>>,
     /// Tile crossings in the Δt being looked at, of the bodies for which they are asked.

@@ -1,5 +1,6 @@
 //! Driving a simulation: commands in, published frames out, on this thread or on one of its own.
 
+mod cancelled;
 mod command;
 mod cost;
 mod crossings;
@@ -54,7 +55,7 @@ pub use rows::{COST_COLUMNS, Column, EVENT_COLUMNS, EventLine, Who, cells};
 pub use thread::ThreadRunner;
 pub use ticks::Division;
 pub use verify::{Compared, Rerun, RerunError};
-pub use ways::{BodyPath, Crossing, ImpactBody, PathSpan};
+pub use ways::{BodyPath, Cancelled, CancelledImpact, Crossing, ImpactBody, PathSpan};
 
 /// Something that runs a simulation on command. The application uses a thread, so that no scene can
 /// freeze the window; tests run inline, so that nothing sleeps.

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::cancelled::rows_of;
 use super::moment::Moment;
 use super::run::Run;
 use super::ways::{BodyPath, ImpactBody, PathSpan};
@@ -67,12 +68,9 @@ const MOST_AT_IMPACT: usize = 64;
 pub(super) fn at_impact(run: &Run) -> Vec<ImpactBody> {
     let now = run.cursor;
     let ledger = &run.recording.ledger;
-    let Some(row) = ledger.get(now.event).filter(|row| !now.is_over && row.event.time == now.time) else {
-        return Vec::new();
-    };
+    let Some(row) = run.event_shown() else { return Vec::new() };
     // The rows of an impact group are one impact.
-    let [nth, of] = row.event.row_in_group.map(u64::from);
-    let (first, last) = (row.event.seq - nth.saturating_sub(1), row.event.seq + of.saturating_sub(nth));
+    let (first, last) = rows_of(row);
     let mut bodies: Vec<BodyRef> = (first..=last)
         .filter_map(|number| ledger.get(number))
         .flat_map(|row| [Some(row.event.a), row.event.b].into_iter().flatten())

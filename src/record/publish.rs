@@ -49,6 +49,8 @@ pub(super) fn frame_of(recorder: &mut RunRecorder, revision: u64, command: u64, 
         }),
         ..Frame::default()
     };
+    let cancelled = recorder.run.as_ref().and_then(|run| recorder.cancelling.found(run));
+    let base = Frame { cancelled, ..base };
     let (span, crossed, tiles) = (recorder.paths, recorder.crossings.clone(), recorder.tiles);
     match &mut recorder.run {
         None => base,

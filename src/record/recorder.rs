@@ -4,6 +4,7 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
+use super::cancelled::Cancelling;
 use super::command::{Goal, RunCommand};
 use super::file::{Written, write};
 use super::frame::RunState;
@@ -37,6 +38,8 @@ pub(super) struct RunRecorder {
     pub(super) crossings: Arc<[NodeKey]>,
     /// Whether frames have the occupied tiles.
     pub(super) tiles: bool,
+    /// What the event shown cancelled.
+    pub(super) cancelling: Cancelling,
     /// The file that was written last.
     pub(super) written: Option<Arc<Written>>,
     /// The motion that was asked for.
@@ -57,6 +60,7 @@ impl Default for RunRecorder {
             paths: None,
             crossings: Arc::default(),
             tiles: false,
+            cancelling: Cancelling::default(),
             written: None,
             motion: None,
         }
@@ -92,6 +96,7 @@ impl RunRecorder {
             RunCommand::Paths(span) => self.paths = span,
             RunCommand::Crossings(keys) => self.crossings = keys,
             RunCommand::Tiles(wanted) => self.tiles = wanted,
+            RunCommand::Cancelled(wanted) => self.cancelling.is_wanted = wanted,
             RunCommand::ShareMotion(wanted) => {
                 let run = self.run.as_ref().filter(|_| wanted);
                 self.motion = run.map(|run| Arc::new(RecordedMotion::of(&run.recording, &run.simulation)));
@@ -181,6 +186,7 @@ impl RunRecorder {
     }
 
     fn take_edits(&mut self, edits: Vec<SimEdit>) {
+        self.cancelling.forget();
         self.edits.extend(edits);
         self.replaced = None;
     }
@@ -206,6 +212,7 @@ impl RunRecorder {
     /// Takes an edit of the start back: the run before it is there again, where it was left.
     fn bring_back_run(&mut self) {
         let Some(mut run) = self.replaced.take() else { return };
+        self.cancelling.forget();
         self.problems = Arc::new(run.simulation.start_warnings().to_vec());
         self.motion = None;
         run.set_budget(self.budget);
@@ -224,10 +231,11 @@ impl RunRecorder {
         }
     }
 
-    /// With nothing else to do, brings the simulation to what is shown; whether it is still on its way.
+    /// With nothing else to do, brings the simulation to what is shown, and then finds what the event there cancelled; whether there
+    /// is more to do for that.
     fn settle(&mut self, budget: u32) -> bool {
         let Some(run) = &mut self.run else { return false };
-        !(0..budget).any(|_| run.settle())
+        !(0..budget).any(|_| run.settle()) || self.cancelling.advance(run, budget)
     }
 
     /// Takes the next waiting command; false when there is none.
@@ -269,7 +277,10 @@ impl RunRecorder {
             RunCommand::Show(moment) => run.go_to(moment),
             RunCommand::Edit(edits) => self.take_edits(edits),
             RunCommand::BringBack if self.replaced.is_some() => self.bring_back_run(),
-            RunCommand::BringBack => run.bring_back(),
+            RunCommand::BringBack => {
+                self.cancelling.forget();
+                run.bring_back();
+            }
             RunCommand::Write(request) => self.written = Some(Arc::new(write(run, &request))),
             _ => {}
         }
@@ -321,6 +332,7 @@ impl RunRecorder {
 
     fn load(&mut self, scene: Arc<Scene>) {
         self.forget_work();
+        self.cancelling.forget();
         self.motion = None;
         match Simulation::with_method(&scene, self.method) {
             Ok(simulation) => {

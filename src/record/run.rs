@@ -6,7 +6,7 @@ use super::cost::Cost;
 use super::drift::Drift;
 use super::frame::WorstOverlap;
 use super::grid::StepGrid;
-use super::ledger::Names;
+use super::ledger::{EventRow, Names};
 use super::limits::PREDICTIONS;
 use super::moment::Moment;
 use super::overlaps::Overlaps;
@@ -115,6 +115,13 @@ impl Run {
         };
         run.look_for_overlap();
         run
+    }
+
+    /// The row of the event that is shown, where that is the moment right after one.
+    pub(super) fn event_shown(&self) -> Option<&Arc<EventRow>> {
+        let now = self.cursor;
+        let row = self.recording.ledger.get(now.event)?;
+        (!now.is_over && row.event.time == now.time).then_some(row)
     }
 
     /// Whether the simulation is at what is shown.

@@ -1,5 +1,7 @@
 //! What is shown of motion beside the present: the ways of bodies, and how they come to an impact and leave it.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use crate::scene::NodeKey;
@@ -45,4 +47,27 @@ pub struct Crossing {
     pub axis: usize,
     /// Numbers of the tiles along that axis, counted from 0: the one left and the one entered.
     pub tiles: [u32; 2],
+}
+
+/// What an event cancelled: impacts that were predicted right before it, and are so no more.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cancelled {
+    /// Number of the event.
+    pub event: u64,
+    /// By the time they were predicted for.
+    pub impacts: Vec<CancelledImpact>,
+    /// Why it cannot be told.
+    pub problem: Option<String>,
+}
+
+/// An impact that an event prevented or moved.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CancelledImpact {
+    /// The body with the smaller UserID, and the other.
+    pub keys: [NodeKey; 2],
+    pub labels: [Arc<str>; 2],
+    /// When the two were to meet, s.
+    pub time: f64,
+    /// When they are to meet instead, s, if anything is predicted.
+    pub now: Option<f64>,
 }

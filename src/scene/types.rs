@@ -28,6 +28,15 @@ impl Scene {
     pub fn has_repeated_ids(&self) -> bool {
         self.bodies.iter().any(Body::repeats_id) || self.forces.iter().any(Force::repeats_id)
     }
+
+    /// Of the moving spheres, m; `None` without any.
+    pub fn smallest_radius(&self) -> Option<f64> {
+        let radii = self.bodies.iter().filter_map(|body| match body.shape {
+            Shape::Sphere { radius } if body.is_dynamic() => Some(radius),
+            _ => None,
+        });
+        radii.reduce(f64::min)
+    }
 }
 
 /// The box `[0,x]×[0,y]×[0,z]` that the tiles divide. It does not collide.

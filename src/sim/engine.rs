@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use rustc_hash::FxHashSet;
+
 use super::capture::{free_unheld, is_caught};
 use super::close_pass::{capture, pass_core};
 use super::dense::{self, Dense, Role};
@@ -10,12 +12,13 @@ use super::fault::{Fault, fault};
 use super::geometry::{contact_distance, gap_of, larger_radius};
 use super::impact;
 use super::island::part;
-use super::ledger::record_contact;
+use super::ledger::{rank, record_contact};
 use super::model::Model;
 use super::neighbours::{predict_later, predict_pair, reregister};
 use super::pair::Pair;
 use super::predict::{Gap, touch_tolerance};
 use super::queue::{Kind, Predicted};
+use super::report::PredictedImpact;
 use super::restart::{Start, restart};
 use super::rolling::kind_of;
 use super::state::State;
@@ -65,6 +68,29 @@ pub(super) fn is_over(state: &mut State) -> bool {
     let is_over = next.is_none();
     next.into_iter().for_each(|next| state.queue.push(next));
     is_over
+}
+
+/// The impacts that are predicted now, in order.
+pub(super) fn predicted_impacts(model: &Model, state: &State) -> Vec<PredictedImpact> {
+    let State { queue, stamps, dense, .. } = state;
+    let hold = queue.iter().filter(|predicted| predicted.kind == Kind::Impact);
+    let hold = hold.filter(|predicted| holds(stamps, dense.as_deref(), predicted));
+    let mut impacts: Vec<PredictedImpact> = hold
+        .map(|predicted| {
+            let (mut a, mut b) = predicted.pair().refs();
+            if rank(model, b) < rank(model, a) {
+                (a, b) = (b, a);
+            }
+            PredictedImpact { time: predicted.time, a, b }
+        })
+        .collect();
+    impacts.sort_by(|one, other| {
+        one.time.total_cmp(&other.time).then_with(|| (one.a, one.b).cmp(&(other.a, other.b)))
+    });
+    // One may be predicted twice, for the same time but for rounding.
+    let mut known = FxHashSet::default();
+    impacts.retain(|impact| known.insert((impact.a, impact.b)));
+    impacts
 }
 
 fn tidy(state: &mut State) {

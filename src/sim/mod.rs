@@ -81,8 +81,8 @@ pub use fault::Fault;
 pub use force::{Force, Subject};
 pub use method::Method;
 pub use report::{
-    AngularMomentum, BodyState, ContactForce, ContactState, Counters, Energy, Momentum, Plan, Rotation,
-    SteppedBodies, Tiling,
+    AngularMomentum, BodyState, ContactForce, ContactState, Counters, Energy, Momentum, Plan,
+    PredictedImpact, Rotation, SteppedBodies, Tiling,
 };
 pub use simulation::{CompileError, Progress, Simulation, Snapshot};
 pub use stepping::StepLimits;

@@ -109,6 +109,11 @@ const SMALLEST_SWEEP: usize = 1024;
 const SHARE: usize = 16;
 
 impl Queue {
+    /// All predictions, in no order, with those that hold no more.
+    pub fn iter(&self) -> impl Iterator<Item = &Predicted> {
+        self.near.iter().chain(&self.far).map(|Entry(predicted)| predicted)
+    }
+
     pub fn push(&mut self, predicted: Predicted) {
         let entry = Entry(predicted);
         // Entries are ordered in reverse: the later is the lesser.

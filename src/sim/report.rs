@@ -42,6 +42,16 @@ impl ContactState {
     }
 }
 
+/// An impact that is to come, unless one of the bodies meets another before it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PredictedImpact {
+    /// Model time, s.
+    pub time: f64,
+    /// The body with the smaller UserID.
+    pub a: BodyRef,
+    pub b: BodyRef,
+}
+
 /// Bodies that are stepped because they touch too often for events.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SteppedBodies {

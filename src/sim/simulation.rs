@@ -17,12 +17,12 @@ use super::method::Method;
 use super::model::Model;
 use super::neighbours::enter;
 use super::report::{
-    AngularMomentum, BodyState, ContactForce, Counters, Energy, Momentum, Plan, Rotation, SteppedBodies,
-    Tiling,
+    AngularMomentum, BodyState, ContactForce, Counters, Energy, Momentum, Plan, PredictedImpact, Rotation,
+    SteppedBodies, Tiling,
 };
 use super::state::State;
 use super::trace::{Begun, Piece};
-use super::{change, dense, drive, hash, monitor};
+use super::{change, dense, drive, engine, hash, monitor};
 use crate::scene::{Diagnostic, NodeKey, Scene};
 
 /// Why a scene cannot be simulated.
@@ -223,6 +223,12 @@ impl Simulation {
         self.dynamic_index(body).map_or(DVec3::ZERO, |index| {
             self.model.applied_force(&subject(&self.model, &self.state, index, self.state.now))
         })
+    }
+
+    /// The impacts that are predicted now, by time: of two bodies the next, if they are near enough to be searched for it, and
+    /// none of bodies that are stepped or by a method that steps by Δt.
+    pub fn predicted_impacts(&self) -> Vec<PredictedImpact> {
+        engine::predicted_impacts(&self.model, &self.state)
     }
 
     /// How many bodies are stepped now; `None` for none.

@@ -152,6 +152,31 @@ fn the_rows_listed_are_written_to_files() {
     }
 }
 
+/// The runner would reach the goal after 3 s, did nobody come across.
+const CROSSING: &str = r#"<PolyPhysicsXml Version="1.0">
+<Map><Size X="10" Y="10" Z="10" /><Tiles X="1" Y="1" Z="1" /></Map>
+<Primitives>
+<SoftObject UserID="1"><Translation X="1" Y="5" Z="5" /><Weight F32="1" /><InitialVelocity X="1" Y="0" Z="0" /><Sphere><Radius F32="0.5" /></Sphere></SoftObject>
+<SoftObject UserID="2"><Translation X="5" Y="5" Z="5" /><Weight F32="1" /><InitialVelocity X="0" Y="0" Z="0" /><Sphere><Radius F32="0.5" /></Sphere></SoftObject>
+<SoftObject UserID="3"><Translation X="2.5" Y="8" Z="5" /><Weight F32="1" /><InitialVelocity X="0" Y="-1.5" Z="0" /><Sphere><Radius F32="0.5" /></Sphere></SoftObject>
+</Primitives></PolyPhysicsXml>"#;
+
+#[test]
+fn costs_tell_what_the_event_shown_cancelled() {
+    let mut window = Window::bytes(CROSSING.as_bytes());
+    window.key(Key::N);
+    assert_eq!(window.frame().event_count, 1);
+    assert!(window.frame().cancelled.is_none(), "nobody asked");
+    window.click_role(Role::CheckBox, "Costs");
+    let line = "Event 1 cancelled 1 predicted impact: 1 – 2 at 3 s";
+    assert!(window.has(line), "{:?}", window.labels());
+    window.click(line);
+    let keys: Vec<_> = ["1", "2"].map(|label| window.body(label).key).into();
+    assert_eq!(window.selected(), keys);
+    window.key(Key::Home);
+    assert!(window.has("Go to an event to see which predicted impacts it cancelled"));
+}
+
 fn type_into(window: &mut Window, label: &str, text: &str) {
     window.harness.get_by_role_and_label(Role::TextInput, label).focus();
     window.harness.run();

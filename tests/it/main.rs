@@ -108,6 +108,7 @@ mod record_drift;
 // Moving through a recorded run, in both directions.
 mod record_travel;
 // When recorded ways cross the faces of tiles.
+mod record_cancelled;
 mod record_crossings;
 // Runners: the Δt grid, going back, edits with their stamps, playing.
 mod record_runner;

@@ -115,12 +115,14 @@ pub(super) fn run(args: &RunArgs) -> Result<(), CliError> {
     drop(watchdog);
     recorder.close()?;
 
-    if let Some(warning) = summary::overflow_warning(&sim) {
+    let overlaps = recorder.overlaps();
+    let told = [summary::overflow_warning(&sim), summary::overlap_warning(overlaps, scene, args.method)];
+    for warning in told.into_iter().flatten() {
         let line = format!("{name}: warning: {warning}");
         super::say(&line);
         warnings.push(line);
     }
-    let summary = Summary::new(&sim, &grid, &ending, (recorder.max_overlap(), &scene.map), wall_s, &warnings);
+    let summary = Summary::new(&sim, &grid, &ending, (overlaps.worst, &scene.map), wall_s, &warnings);
     if args.json {
         summary.print_json()?;
     } else if !args.writes_to_stdout() {

@@ -23,7 +23,7 @@ pub struct Recorder {
     wanted: Wanted,
     progress: Progress,
     last_tick: Instant,
-    max_overlap: f64,
+    overlaps: Overlaps,
     /// States are written, and the worst overlap is looked for, every so many Δt and at the end.
     states_every: u64,
     overlap_every: u64,
@@ -34,6 +34,26 @@ pub struct Recorder {
     counters: Counters,
     /// Whether the run has a purpose besides the rows.
     has_other_purpose: bool,
+}
+
+/// The deepest overlaps at the samples looked at, m.
+#[derive(Clone, Copy, Default)]
+pub struct Overlaps {
+    /// When the run began; `None` before.
+    first: Option<f64>,
+    pub worst: f64,
+}
+
+impl Overlaps {
+    pub(super) fn note(&mut self, depth: f64) {
+        self.first.get_or_insert(depth);
+        self.worst = self.worst.max(depth);
+    }
+
+    /// The deepest, if it is deeper than when the run began.
+    pub fn later(&self) -> Option<f64> {
+        (self.worst > self.first.unwrap_or(0.0)).then_some(self.worst)
+    }
 }
 
 impl Recorder {
@@ -50,7 +70,7 @@ impl Recorder {
             wanted,
             progress: Progress::new(grid.until, args.writes_to_stdout()),
             last_tick: Instant::now(),
-            max_overlap: 0.0,
+            overlaps: Overlaps::default(),
             states_every: args.every,
             overlap_every: grid.steps.div_ceil(OVERLAP_LOOKS),
             last_step: grid.steps,
@@ -78,7 +98,7 @@ impl Recorder {
     }
 
     fn look_for_overlap(&mut self, sim: &Simulation) {
-        self.max_overlap = self.max_overlap.max(sim.worst_overlap());
+        self.overlaps.note(sim.worst_overlap());
     }
 
     fn take_down(&mut self, sim: &Simulation) -> Result<(), CliError> {
@@ -111,9 +131,8 @@ impl Recorder {
         !self.has_other_purpose && self.sinks().all(LineSink::is_closed)
     }
 
-    /// Deepest overlap at any sample taken, m.
-    pub fn max_overlap(&self) -> f64 {
-        self.max_overlap
+    pub fn overlaps(&self) -> Overlaps {
+        self.overlaps
     }
 
     /// Writes what is left and takes the bar away.

@@ -5,10 +5,14 @@ use std::fmt::Write as _;
 use serde::{Serialize, Serializer};
 
 use super::drive::Ending;
+use super::recorder::Overlaps;
 use crate::cli::samples::SampleGrid;
 use crate::cli::{CliError, output};
-use crate::scene::Map;
+use crate::scene::{HEAP_OVERLAP, Map, Scene};
 use crate::sim::{Energy, EventKind, Method, Plan, Simulation};
+
+/// Overlap that deserves a warning, of the smallest radius: ten times what the bodies of a heap may have.
+const DEEP: f64 = 10.0 * HEAP_OVERLAP;
 
 /// The object that `--json` prints. What cannot be computed is `null`.
 #[derive(Serialize)]
@@ -255,6 +259,22 @@ pub fn overflow_warning(sim: &Simulation) -> Option<String> {
     ))
 }
 
+/// Says that bodies went far deeper into each other than those of a heap may, which are pressed there. What overlapped so when the
+/// run began was told then.
+pub fn overlap_warning(overlaps: Overlaps, scene: &Scene, method: Method) -> Option<String> {
+    let depth =
+        overlaps.later().filter(|depth| scene.smallest_radius().is_some_and(|r| *depth > DEEP * r))?;
+    let way_out = match method {
+        Method::Exact => "masses that differ less, or a smaller DenseStep, may avoid it",
+        Method::Thesis | Method::Fixed => "a smaller --dt or --method exact may avoid it",
+    };
+    Some(format!(
+        "bodies overlapped by {} m at a sample, more than {DEEP} of the smallest radius: since then they may have moved as no rigid \
+         bodies do; {way_out}",
+        small(depth)
+    ))
+}
+
 fn count_outside(sim: &Simulation, map: &Map) -> usize {
     let states = sim.dynamic_bodies().filter_map(|body| sim.state(body));
     states.filter(|state| !map.contains(state.position)).count()
@@ -302,4 +322,33 @@ fn small(value: f64) -> String {
 
 fn line(text: &mut String, label: &str, value: &str) {
     let _ = writeln!(text, "  {label:<10}{value}");
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::scene::{Body, Motion, Shape, SimParams};
+
+    fn told(depths: &[f64], radius: f64, method: Method) -> Option<String> {
+        let motion = Motion::Dynamic { mass: 1.0, velocity: DVec3::ZERO };
+        let ball = Body::new(1, DVec3::ONE, motion, Shape::Sphere { radius });
+        let map = Map { size: DVec3::ONE, tiles: [1; 3] };
+        let (params, forces) = (SimParams::default(), Vec::new());
+        let scene = Scene { map, time_speed: 1.0, params, forces, bodies: vec![ball] };
+        let mut overlaps = Overlaps::default();
+        depths.iter().for_each(|depth| overlaps.note(*depth));
+        overlap_warning(overlaps, &scene, method)
+    }
+
+    #[test]
+    fn bodies_that_went_deep_are_told_of_and_those_of_a_heap_or_the_start_are_not() {
+        let deep = told(&[0.0, 0.02, 0.0], 1.0, Method::Exact).unwrap();
+        assert!(deep.contains("2.0e-2 m") && deep.contains("DenseStep"), "{deep}");
+        assert!(told(&[0.0, 0.02], 1.0, Method::Fixed).unwrap().contains("--method exact"));
+        assert_eq!(told(&[0.0, 0.001], 1.0, Method::Exact), None, "as a heap has");
+        assert_eq!(told(&[0.02, 0.02, 0.01], 1.0, Method::Exact), None, "told when it was read");
+        assert_eq!(told(&[0.0, 0.02], 10.0, Method::Exact), None, "of large balls it is little");
+    }
 }

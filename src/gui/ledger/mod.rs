@@ -1,6 +1,7 @@
 //! The ledger: every recorded event of the run. A click goes to the event and selects its bodies, a double click shows its
 //! place large, a click on a title sorts.
 
+mod cancelled;
 mod columns;
 mod filter;
 mod listed;
@@ -52,7 +53,20 @@ impl LedgerPanel {
         if self.listed.look(&frame.ledger, &self.bar.wanted(context), self.order) {
             ui.ctx().request_repaint();
         }
+        if self.costs {
+            cancelled::show(ui, context);
+        }
         self.table(ui, context);
+    }
+
+    /// As a tick at Costs.
+    pub fn show_costs(&mut self) {
+        self.costs = true;
+    }
+
+    /// Whether it says what the event shown cancelled.
+    pub fn shows_cancelled(&self) -> bool {
+        self.costs
     }
 
     /// What the row of tabs says of it.
@@ -129,8 +143,8 @@ impl LedgerPanel {
             }
             return;
         }
-        let help =
-            "Also shows and writes what the core did for each event: searches, and predictions dropped";
+        let help = "Also shows and writes what the core did for each event: searches, and predictions dropped; of the event shown the \
+             predicted impacts that it cancelled";
         ui.checkbox(&mut self.costs, "Costs").on_hover_text(help);
         let buttons = [
             (Kind::Copy, "Copy", "The rows listed as text with tabs, for a spreadsheet"),

@@ -110,7 +110,7 @@ impl Judge {
             walls: Setup::walls(scene),
             forces: scene.forces.clone(),
             masses,
-            smallest: smallest_radius(scene),
+            smallest: scene.smallest_radius().unwrap_or(f64::INFINITY),
             unit: energy_unit(scene),
             lowest: f64::INFINITY,
             outcome: Outcome::nothing(),
@@ -203,14 +203,6 @@ fn pull(forces: &[Force], at: DVec3) -> DVec3 {
         ForceKind::Drag { .. } => DVec3::ZERO,
     });
     of_each.sum()
-}
-
-fn smallest_radius(scene: &Scene) -> f64 {
-    let radii = scene.bodies.iter().filter_map(|body| match body.shape {
-        Shape::Sphere { radius } if body.is_dynamic() => Some(radius),
-        _ => None,
-    });
-    radii.fold(f64::INFINITY, f64::min)
 }
 
 /// Mean over the balls of m g r at the start, or of their kinetic energies where nothing pulls, J.
