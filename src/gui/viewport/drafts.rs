@@ -15,6 +15,8 @@ const REST_S: f64 = 0.15;
 #[derive(Default)]
 pub(super) struct Drafts {
     views: BTreeMap<usize, Drawn>,
+    /// The turn of the window, by its time, in which a view that takes long was drawn in full last, s.
+    refined_s: Option<f64>,
     /// Whether there are no drafts: for scripts, which wait for what they have asked for.
     pub in_full: bool,
 }
@@ -32,7 +34,8 @@ struct Drawn {
 
 impl Drafts {
     /// How to draw a view's picture of that revision at a time, s; with a draft, in how many seconds to look again. One that
-    /// waits for its turn to show what is now does not rest, however long that takes.
+    /// waits for its turn to show what is now does not rest, however long that takes. Of those that rest one a turn is drawn in full:
+    /// all at once would be felt by the hand that goes on.
     pub fn quality(
         &mut self,
         view: usize,
@@ -46,11 +49,17 @@ impl Drafts {
         if drawn.revision != revision || revision == 0 {
             *drawn = Drawn { revision, since_s: now_s, is_full: false, ..*drawn };
         }
-        let left = REST_S - (now_s - drawn.since_s);
-        if self.in_full || drawn.is_full || drawn.full_s <= SLOW_S || left <= 0.0 {
+        if self.in_full || drawn.is_full || drawn.full_s <= SLOW_S {
             return (Quality::Full, None);
         }
-        (Quality::Draft, Some(left))
+        let left = REST_S - (now_s - drawn.since_s);
+        if left > 0.0 {
+            return (Quality::Draft, Some(left));
+        }
+        if self.refined_s.replace(now_s) == Some(now_s) {
+            return (Quality::Draft, Some(0.0));
+        }
+        (Quality::Full, None)
     }
 
     /// Notes that a view was drawn, and how long that took, s.
@@ -99,6 +108,29 @@ mod tests {
         drafts.note(0, Quality::Full, 0.2);
         assert!(!drafts.has_drafts(|_| true));
         assert_eq!(drafts.quality(0, (3, false), 1.31).0, Quality::Full);
+    }
+
+    /// Symptom: when the hand rested, four large views were drawn in full in one frame of 85 ms.
+    #[test]
+    fn views_that_rest_are_drawn_in_full_one_after_the_other() {
+        let mut drafts = Drafts::default();
+        for view in 0..3 {
+            drafts.note(view, Quality::Full, 0.03);
+            assert_eq!(drafts.quality(view, (1, false), 1.0).0, Quality::Draft);
+        }
+        for (turn, now_s) in [2.0, 2.1, 2.2].into_iter().enumerate() {
+            for view in 0..3 {
+                let (quality, again_s) = drafts.quality(view, (1, false), now_s);
+                let (full, waits) = (view <= turn, view > turn);
+                assert_eq!(
+                    (quality == Quality::Full, again_s),
+                    (full, waits.then_some(0.0)),
+                    "{view} in {turn}"
+                );
+                drafts.note(view, quality, 0.03);
+            }
+        }
+        assert!(!drafts.has_drafts(|_| true));
     }
 
     /// Symptom: while many bodies were dragged, views that waited for their turn longer than a rest were drawn in full in
