@@ -85,7 +85,7 @@ fn scene(size: f64, tiles: u32, bodies: Vec<Body>) -> Scene {
         time_speed: 1.0,
         params: SimParams::default(),
         forces: Vec::new(),
-        bodies,
+        bodies: bodies.into(),
     }
 }
 

@@ -2,14 +2,14 @@
 //! compares each body of a lattice with the two layers around it.
 
 use super::extent::Extent;
-use crate::scene::Body;
+use crate::scene::{Body, BodyList};
 
 /// Bodies in a leaf: below so many comparing all costs less than dividing them.
 const LEAF: usize = 8;
 
 /// Gives each pair of bodies, by their indices in order, whose boxes are nearer than `margin`, until `visit` says
 /// that it has seen enough. Pairs in which neither moves are left out.
-pub(super) fn for_each_near(bodies: &[Body], margin: f64, mut visit: impl FnMut(usize, usize) -> bool) {
+pub(super) fn for_each_near(bodies: &BodyList, margin: f64, mut visit: impl FnMut(usize, usize) -> bool) {
     // What is nowhere meets nothing, and no box around others may hold it.
     let boxes = bodies.iter().enumerate().map(Boxed::of);
     let mut boxes: Vec<Boxed> =
@@ -118,7 +118,7 @@ mod tests {
         Body::new(index as i64, at, motion, Shape::Sphere { radius })
     }
 
-    fn found(bodies: &[Body], margin: f64) -> Vec<(usize, usize)> {
+    fn found(bodies: &BodyList, margin: f64) -> Vec<(usize, usize)> {
         let mut pairs = Vec::new();
         for_each_near(bodies, margin, |a, b| {
             pairs.push((a, b));
@@ -133,7 +133,7 @@ mod tests {
     fn pairs_are_those_of_comparing_all() {
         let mut random = Random::new(5);
         for count in [0, 1, 2, 9, 40, 300] {
-            let mut bodies: Vec<Body> = (0..count)
+            let mut bodies: BodyList = (0..count)
                 .map(|index| {
                     let radius = libm::pow(10.0, random.range(-3.0, 1.0));
                     let at = if index % 7 == 0 { DVec3::ONE } else { random.vector(10.0) };
@@ -160,7 +160,7 @@ mod tests {
 
     #[test]
     fn it_ends_when_enough_is_seen() {
-        let bodies: Vec<Body> = (0..100).map(|index| ball(index, DVec3::ZERO, 1.0, true)).collect();
+        let bodies: BodyList = (0..100).map(|index| ball(index, DVec3::ZERO, 1.0, true)).collect();
         let mut seen = 0;
         for_each_near(&bodies, 0.0, |_, _| {
             seen += 1;

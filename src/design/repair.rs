@@ -166,7 +166,7 @@ fn push_all(scene: &Scene) -> Option<Plan> {
         // Plates last, so that no round ends with a ball behind one.
         pairs.sort_by_key(|&(a, b)| (!(bodies[a].is_dynamic() && bodies[b].is_dynamic()), a, b));
         for (a, b) in pairs {
-            let [one, other] = bodies.get_disjoint_mut([a, b]).ok()?;
+            let [one, other] = bodies.get_two_mut(a, b)?;
             if overlap(scene, one, other).is_some() {
                 push(one, other);
             }

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::gap::deep_overlap;
 use super::measure::{Repair, fitting_tiles, is_outside, may_part, middle_radius};
 use super::near::for_each_near;
-use crate::scene::{Body, Motion, NodeKey, Scene};
+use crate::scene::{Body, BodyList, Motion, NodeKey, Scene};
 
 /// Troubles of one kind listed at most; the rest are counted. A list is for people.
 const MOST_LISTED: usize = 200;
@@ -60,7 +60,7 @@ pub fn troubles(scene: &Scene) -> Vec<Trouble> {
 }
 
 /// Pairs that overlap by more than a heap does, by their places among the bodies, with how deep, m.
-pub(super) fn overlapping(scene: &Scene, bodies: &[Body]) -> Vec<(usize, usize, f64)> {
+pub(super) fn overlapping(scene: &Scene, bodies: &BodyList) -> Vec<(usize, usize, f64)> {
     let mut pairs = Vec::new();
     for_each_near(bodies, 0.0, |a, b| {
         if let Some(depth) = deep_overlap(scene, &bodies[a], &bodies[b]) {

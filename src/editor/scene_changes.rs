@@ -10,7 +10,12 @@ const MOST: usize = 8;
 /// The changes, or that there are none that mean anything.
 pub(super) fn changes(before: &Scene, after: &Scene) -> Vec<String> {
     let mut lines = settings(before, after);
-    items((&before.bodies, &after.bodies), |body| (body.key, body.display_name()), body_changes, &mut lines);
+    items(
+        (before.bodies.as_slice(), after.bodies.as_slice()),
+        |body| (body.key, body.display_name()),
+        |a, b| body_changes(a, b),
+        &mut lines,
+    );
     items(
         (&before.forces, &after.forces),
         |force| (force.key, force.display_name()),

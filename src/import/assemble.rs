@@ -48,7 +48,7 @@ pub(super) fn scene(world: World, log: &mut Log) -> (Scene, Vec<Option<(u32, u32
     if density > 0.0 {
         force(ForceKind::Drag { density });
     }
-    (Scene { map, time_speed, params: SimParams::default(), forces, bodies }, origins)
+    (Scene { map, time_speed, params: SimParams::default(), forces, bodies: bodies.into() }, origins)
 }
 
 /// (x, y, z) → (x, z, −y).

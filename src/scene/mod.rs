@@ -1,6 +1,8 @@
 //! The document: what a scene file says, how it is read, edited and written. Knows nothing of time or pixels.
 
+mod body_list;
 mod compose;
+mod contents;
 mod declaration;
 mod diagnostic;
 mod document;
@@ -29,6 +31,8 @@ mod xml;
 
 use diagnostic::shown;
 
+pub use body_list::BodyList;
+pub use contents::Scene;
 pub use diagnostic::{Diagnostic, Severity, escaped, shown_path};
 pub use document::Document;
 pub use edit::{BodyChange, BodyCopy, Edit, EditError, Edited, ForceChange, Side, Touched};
@@ -41,7 +45,7 @@ pub use save::{
     FileId, FileStamp, canonical_target, check_writable, same_file, write_atomically, write_private,
 };
 pub use schema::schema;
-pub use types::{Body, Force, ForceKind, Map, Motion, NodeKey, Roughness, Scene, Shape, rotation_matrix};
+pub use types::{Body, Force, ForceKind, Map, Motion, NodeKey, Roughness, Shape, rotation_matrix};
 pub use viewpoint::Viewpoint;
 pub use vocabulary::{AttributeInfo, Content, ElementInfo, Need, Part, Since, VOCABULARY, ValueKind};
 pub use xml::XmlElement;

@@ -3,41 +3,11 @@
 use glam::{DMat3, DVec3};
 use serde::{Deserialize, Serialize};
 
-use super::SimParams;
-
 /// Identifies one element of a document for as long as the document and its edits live.
 ///
 /// Keys are never reused, survive every edit and undo, and are not written to the file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct NodeKey(pub u64);
-
-/// Everything a simulation needs to know.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Scene {
-    pub map: Map,
-    /// Model seconds per wall-clock second while watching; never scales Δt.
-    pub time_speed: f64,
-    pub params: SimParams,
-    pub forces: Vec<Force>,
-    /// In file order.
-    pub bodies: Vec<Body>,
-}
-
-impl Scene {
-    /// Whether a UserID stands twice, among bodies or among forces.
-    pub fn has_repeated_ids(&self) -> bool {
-        self.bodies.iter().any(Body::repeats_id) || self.forces.iter().any(Force::repeats_id)
-    }
-
-    /// Of the moving spheres, m; `None` without any.
-    pub fn smallest_radius(&self) -> Option<f64> {
-        let radii = self.bodies.iter().filter_map(|body| match body.shape {
-            Shape::Sphere { radius } if body.is_dynamic() => Some(radius),
-            _ => None,
-        });
-        radii.reduce(f64::min)
-    }
-}
 
 /// The box `[0,x]×[0,y]×[0,z]` that the tiles divide. It does not collide.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -100,7 +100,7 @@ fn a_crowd_is_pushed_apart_and_stays_in_its_room() {
     assert!(kinds(&document).len() > 20);
     let parted = repaired(&document, Repair::PushAllApart);
     assert_eq!(troubles(scene(&parted)), []);
-    assert!(scene(&parted).bodies[1..].iter().all(|ball| ball.position.y > 0.49));
+    assert!(scene(&parted).bodies.as_slice()[1..].iter().all(|ball| ball.position.y > 0.49));
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! The table of tools: every tool does what it says in one step, on any scene, and leaves no trouble behind.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use glam::{DVec3, dvec3};
 use polyscene::design::{
@@ -157,7 +158,7 @@ fn balls_of_a_rack_and_a_pyramid_touch() {
             let bodies = &scene(&made).bodies;
             let mut touching = 0;
             for (nth, a) in bodies.iter().enumerate() {
-                for b in &bodies[..nth] {
+                for b in bodies.iter().take(nth) {
                     let distance = gap(a, b).unwrap().distance;
                     assert!(distance > -1e-12, "{id}: {distance:e}");
                     touching += usize::from(distance < 1e-12);
@@ -192,7 +193,7 @@ fn walls_of_a_room_look_inwards_from_the_edges_of_the_map() {
 fn parts_stand_on_the_floor_that_is_there() {
     let floor = use_tool(&empty(), &[], "table", &[("Place y", 2.5)]);
     let rack = use_tool(&floor, &[], "rack", &[("Ball radius", 0.1)]);
-    assert!(scene(&rack).bodies[5..].iter().all(|ball| ball.position.y == 2.6));
+    assert!(scene(&rack).bodies.as_slice()[5..].iter().all(|ball| ball.position.y == 2.6));
     assert_eq!(troubles(scene(&rack)), []);
 }
 
@@ -245,7 +246,7 @@ fn arrays_lines_and_circles_have_their_places() {
 fn a_mirror_image_of_a_plate_is_the_plate_mirrored() {
     let ramp = use_tool(&empty(), &[], "ramp", &[("Place x", 3.0)]);
     let made = use_tool(&ramp, &all_keys(&ramp), "mirror", &[]);
-    let [a, b] = &scene(&made).bodies[..] else { panic!("two ramps") };
+    let [a, b] = scene(&made).bodies.as_slice() else { panic!("two ramps") };
     let flip = dvec3(-1.0, 1.0, 1.0);
     assert!((b.position - dvec3(7.0, a.position.y, a.position.z)).length() < 1e-12);
     let (na, nb) = (rotation_matrix(a.rotation).z_axis, rotation_matrix(b.rotation).z_axis);
@@ -272,7 +273,7 @@ fn bodies_are_aligned_distributed_and_packed() {
     let packed = use_tool(&row, &all_keys(&row), "pack", &[("Towards", 0.0)]);
     let bodies = &scene(&packed).bodies;
     assert_eq!(bodies[0].position.x, 2.0, "nothing is in its way");
-    for pair in bodies.windows(2) {
+    for pair in bodies.as_slice().windows(2) {
         assert!(gap(&pair[0], &pair[1]).unwrap().distance.abs() < 1e-12);
     }
     let room = use_tool(&row, &[], "room", &[]);
@@ -381,10 +382,11 @@ fn parts_made_one_after_another_stand_beside_each_other() {
                 troubles(scene(&both)).iter().all(|trouble| trouble.kind != TroubleKind::Overlap),
                 "{first}, {second}"
             );
-            let (old, new) = scene(&both).bodies.split_at(scene(&one).bodies.len());
+            let (old, new) = scene(&both).bodies.as_slice().split_at(scene(&one).bodies.len());
             let plates =
-                |bodies: &[Body]| bodies.iter().any(|body| matches!(body.shape, Shape::Plane { .. }));
-            let [old_box, new_box] = [old, new].map(|bodies| Extent::around(bodies).unwrap());
+                |bodies: &[Arc<Body>]| bodies.iter().any(|body| matches!(body.shape, Shape::Plane { .. }));
+            let [old_box, new_box] =
+                [old, new].map(|bodies| Extent::around(bodies.iter().map(AsRef::as_ref)).unwrap());
             let apart = old_box.min.cmpge(new_box.max - 1e-9) | new_box.min.cmpge(old_box.max - 1e-9);
             assert!(
                 apart.any() || !(plates(old) && plates(new)),
@@ -401,10 +403,10 @@ fn no_part_of_plates_is_made_around_balls() {
     let room = use_tool(&empty(), &[], "room", &[]);
     let rack = add_beside(&room, "rack");
     let count = scene(&rack).bodies.len();
-    let balls = Extent::around(&scene(&rack).bodies[scene(&room).bodies.len()..]).unwrap();
+    let balls = Extent::around(scene(&rack).bodies.iter().skip(scene(&room).bodies.len())).unwrap();
     for id in ["block", "stairs", "ramp", "open_box"] {
         let both = add_beside(&rack, id);
-        let part = Extent::around(&scene(&both).bodies[count..]).unwrap();
+        let part = Extent::around(scene(&both).bodies.iter().skip(count)).unwrap();
         let apart = balls.min.cmpge(part.max - 1e-9) | part.min.cmpge(balls.max - 1e-9);
         assert!(apart.any(), "{id} {part:?} is around {balls:?}");
     }
@@ -413,7 +415,7 @@ fn no_part_of_plates_is_made_around_balls() {
 #[test]
 fn parts_stand_in_rooms_and_balls_in_boxes_and_on_tables() {
     let middle = |document: &Document, before: &Document| {
-        let new = &scene(document).bodies[scene(before).bodies.len()..];
+        let new = scene(document).bodies.iter().skip(scene(before).bodies.len());
         Extent::around(new).unwrap().middle()
     };
     let room = use_tool(&empty(), &[], "room", &[]);
@@ -430,6 +432,6 @@ fn parts_stand_in_rooms_and_balls_in_boxes_and_on_tables() {
         "{another}"
     );
     let block = add_beside(&table, "block");
-    let stands = Extent::around(&scene(&block).bodies[scene(&table).bodies.len()..]).unwrap();
+    let stands = Extent::around(scene(&block).bodies.iter().skip(scene(&table).bodies.len())).unwrap();
     assert!(stands.min.y.abs() < 1e-9 && stands.min.z > 6.5, "beside the table, on the floor: {stands:?}");
 }

@@ -54,9 +54,13 @@ fn copies_of_a_row_are_free_and_go_on_by_the_same_step() {
         assert_eq!(bench.run(SessionCommand::Duplicate), Outcome::Done);
         let bodies = &bench.scene().bodies;
         assert_eq!(bodies.len(), 5 * (copies + 1));
-        assert_eq!(bodies[..5].iter().map(|body| body.key).collect::<Vec<_>>(), row, "originals stay first");
+        assert_eq!(
+            bodies.iter().take(5).map(|body| body.key).collect::<Vec<_>>(),
+            row,
+            "originals stay first"
+        );
         for (nth, a) in bodies.iter().enumerate() {
-            assert!(bodies[..nth].iter().all(|b| gap(a, b).unwrap().distance > 0.0), "copy {copies}");
+            assert!(bodies.iter().take(nth).all(|b| gap(a, b).unwrap().distance > 0.0), "copy {copies}");
         }
         let names: std::collections::BTreeSet<_> = bodies.iter().map(|body| &body.name).collect();
         assert_eq!(names.len(), bodies.len());

@@ -200,11 +200,17 @@ fn groups_are_folders_of_the_tree() {
     assert_eq!(window.selected().len(), 5);
     window.key_with(Modifiers::COMMAND, Key::D);
     assert_eq!(window.scene().bodies.len(), 10);
-    assert!(window.scene().bodies[5..].iter().all(|body| body.group.as_deref() == Some("pyramid 2")));
+    assert!(
+        window.scene().bodies.as_slice()[5..].iter().all(|body| body.group.as_deref() == Some("pyramid 2"))
+    );
     window.key_with(Modifiers::COMMAND, Key::G);
-    assert!(window.scene().bodies[5..].iter().all(|body| body.group.as_deref() == Some("pyramid 2/group")));
+    assert!(
+        window.scene().bodies.as_slice()[5..]
+            .iter()
+            .all(|body| body.group.as_deref() == Some("pyramid 2/group"))
+    );
     window.key_with(Modifiers::COMMAND | Modifiers::SHIFT, Key::G);
-    assert!(window.scene().bodies[5..].iter().all(|body| body.group.is_none()));
+    assert!(window.scene().bodies.as_slice()[5..].iter().all(|body| body.group.is_none()));
 }
 
 #[test]
@@ -369,7 +375,7 @@ fn a_part_stands_beside_the_one_before() {
     assert_eq!(place(&window), 7.3, "it makes room for its size");
     window.click("Create");
     let front = |body: &polyscene::scene::Body| Extent::of(body).min.z;
-    let second = window.scene().bodies[6..].iter().map(front).fold(f64::INFINITY, f64::min);
+    let second = window.scene().bodies.iter().skip(6).map(front).fold(f64::INFINITY, f64::min);
     assert!((second - 6.1).abs() < 1e-9, "{second}");
     // a ramp is told its length and angle, or its run and rise
     window.key(Key::Escape);

@@ -72,7 +72,7 @@ fn assert_permutable(id: &str, scene: &Scene, until: f64, expected: &Run) {
     for seed in 0..2 {
         let mut permuted = scene.clone();
         let mut random = Random::new(seed);
-        random.shuffle(&mut permuted.bodies);
+        random.shuffle(permuted.bodies.as_mut_slice());
         random.shuffle(&mut permuted.forces);
         let got = run(&permuted, until, Sampling::Every(0.1));
         assert_same_bits(expected, &got, &format!("{id}, order {seed}"));

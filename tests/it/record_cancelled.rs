@@ -1,12 +1,13 @@
 //! What an event cancelled, against all pairs of bodies looked at in closed form.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DVec3, dvec3};
 use polyscene::random::Random;
 use polyscene::record::{Cancelled, Frame, InlineRunner, Of, RunCommand, Runner as _};
-use polyscene::scene::{NodeKey, Scene, Shape};
+use polyscene::scene::{Document, NodeKey, Scene, Shape};
 use polyscene::sim::{Method, SimEdit};
 
 use crate::common::build::{Build as _, ball, empty, static_ball};
@@ -89,7 +90,7 @@ type Meetings = BTreeMap<(NodeKey, NodeKey), f64>;
 fn meetings(frame: &Frame, radius: &BTreeMap<NodeKey, f64>) -> Meetings {
     let mut found = Meetings::new();
     for (nth, a) in frame.bodies.iter().enumerate() {
-        for b in &frame.bodies[nth + 1..] {
+        for b in &frame.bodies.as_slice()[nth + 1..] {
             let (x, v) = (b.position - a.position, b.velocity - a.velocity);
             let reach = radius[&a.key] + radius[&b.key];
             let (half, root) = (x.dot(v), x.dot(v).powi(2) - v.dot(v) * (x.dot(x) - reach * reach));
@@ -160,4 +161,30 @@ fn of_a_gas_it_is_what_no_pair_of_straight_ways_gives_any_more() {
         before = after;
     }
     assert!(told > events / 2, "{told} cancelled by {events} events");
+}
+
+/// Heaps, fields, friction, edges, capture: the way back to an event is the one that was recorded, whatever lies on it.
+#[test]
+fn the_events_of_all_samples_are_come_to_again() {
+    let folders = ["scenes", "scenes/hard"].map(|folder| Path::new(env!("CARGO_MANIFEST_DIR")).join(folder));
+    let files = folders.iter().flat_map(|folder| std::fs::read_dir(folder).expect("the folder").flatten());
+    let mut looked_at = 0;
+    for path in
+        files.map(|file| file.path()).filter(|path| path.extension().is_some_and(|kind| kind == "xml"))
+    {
+        let document = Document::open(&path);
+        let Some(scene) = document.scene().filter(|scene| scene.bodies.len() < 150) else { continue };
+        let mut runner = loaded(scene);
+        runner.send(RunCommand::Step { dt: DT, count: 4 });
+        for _ in 0..6 {
+            let frame = next_event(&mut runner);
+            if frame.fault.is_some() || frame.at_impact.is_empty() {
+                break;
+            }
+            let found = cancelled(&frame);
+            assert_eq!(found.problem, None, "{}: event {}", path.display(), frame.event_count);
+            looked_at += 1;
+        }
+    }
+    assert!(looked_at > 100, "{looked_at} events");
 }

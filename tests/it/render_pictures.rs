@@ -275,13 +275,14 @@ fn a_draft_looks_like_the_picture_and_makes_way_for_it() {
 #[test]
 fn balls_of_a_draft_hide_each_other_and_are_cut_off_by_the_border_as_in_full() {
     let scene = Scene {
-        bodies: vec![
+        bodies: [
             green(ball(1, dvec3(5.0, 5.0, 2.0), 0.5)),
             red(ball(2, dvec3(5.2, 5.0, 8.0), 0.5)),
             green(ball(3, dvec3(0.1, 5.0, 5.0), 0.6)),
             red(ball(4, dvec3(-0.2, 8.0, 5.0), 0.6)),
             green(ball(5, dvec3(5.0, 1.0, 5.0), 2.0)),
-        ],
+        ]
+        .into(),
         ..empty()
     };
     let camera = Camera { target: DVec3::splat(5.0), yaw: 0.0, pitch: 0.0, ..ortho() };

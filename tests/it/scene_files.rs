@@ -33,7 +33,7 @@ fn every_sample_loads_round_trips_and_survives_an_edit_and_undo() {
         let scene = document.scene().unwrap();
         let mut now = document.clone();
         // Each edit reads the whole list anew.
-        let some = &scene.bodies[..scene.bodies.len().min(MOST)];
+        let some = &scene.bodies.as_slice()[..scene.bodies.len().min(MOST)];
         for body in some {
             let change = BodyChange::Position(body.position + glam::DVec3::splat(0.1));
             now = now.apply(&Edit::Body { key: body.key, change }).unwrap().document;

@@ -68,7 +68,7 @@ fn a_plain_scene_is_read_in_full() {
     let plane = ForceKind::GravityPlane { position, acceleration: DVec3::new(0.0, -9.8, 0.0) };
     let point = ForceKind::GravityPoint { position: DVec3::splat(5.0), intensity: 8.0 };
     assert_eq!(kinds, [plane, point]);
-    let [ball, wall] = &scene.bodies[..] else { panic!("two bodies") };
+    let [ball, wall] = scene.bodies.as_slice() else { panic!("two bodies") };
     assert_eq!((ball.id, ball.label.as_str(), ball.bounce), (5853, "5853", 0.5));
     assert_eq!(ball.motion, Motion::Dynamic { mass: 2.0, velocity: DVec3::new(-3.0, -2.25, -4.0) });
     assert_eq!(ball.shape, Shape::Sphere { radius: 1.0 });

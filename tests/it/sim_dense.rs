@@ -189,7 +189,7 @@ fn stepped_groups_are_the_same_bits_for_every_dt_tiling_and_file_order() {
         );
     }
     let mut shuffled = scene.clone();
-    Random::new(1).shuffle(&mut shuffled.bodies);
+    Random::new(1).shuffle(shuffled.bodies.as_mut_slice());
     assert_same_bits(&expected, &run(&shuffled, until, Sampling::Every(1.0 / 60.0)), "another order");
 }
 

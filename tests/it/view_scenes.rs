@@ -2,7 +2,7 @@
 
 use glam::{DVec3, dvec3};
 use polyscene::record::{BodyFrame, ContactFrame, EventRow, Frame};
-use polyscene::scene::{Body, Force, ForceKind, Map, Motion, NodeKey, Scene, Shape, SimParams};
+use polyscene::scene::{Body, BodyList, Force, ForceKind, Map, Motion, NodeKey, Scene, Shape, SimParams};
 use polyscene::sim::{BodyRef, ContactState, Event, EventKind, Tiling};
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ pub fn empty() -> Scene {
         time_speed: 1.0,
         params: SimParams::default(),
         forces: Vec::new(),
-        bodies: Vec::new(),
+        bodies: BodyList::new(),
     }
 }
 

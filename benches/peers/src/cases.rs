@@ -106,7 +106,7 @@ fn ball_on_slope(angle: f64, speed: f64) -> Scene {
         time_speed: 1.0,
         params: SimParams::default(),
         forces: vec![gravity],
-        bodies: vec![slope, ball],
+        bodies: [slope, ball].into(),
     }
 }
 

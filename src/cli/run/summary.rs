@@ -336,7 +336,7 @@ mod tests {
         let ball = Body::new(1, DVec3::ONE, motion, Shape::Sphere { radius });
         let map = Map { size: DVec3::ONE, tiles: [1; 3] };
         let (params, forces) = (SimParams::default(), Vec::new());
-        let scene = Scene { map, time_speed: 1.0, params, forces, bodies: vec![ball] };
+        let scene = Scene { map, time_speed: 1.0, params, forces, bodies: [ball].into() };
         let mut overlaps = Overlaps::default();
         depths.iter().for_each(|depth| overlaps.note(*depth));
         overlap_warning(overlaps, &scene, method)

@@ -11,7 +11,7 @@ use crate::design::gap::gap;
 use crate::design::place::of_map;
 use crate::design::tool::{Input, Kind, Tool, ToolGroup};
 use crate::random::Random;
-use crate::scene::{Body, Motion, Shape};
+use crate::scene::{Body, BodyList, Motion, Shape};
 
 /// Places tried for each ball: random places fill about a third of a box before most tries fail.
 const TRIES: usize = 200;
@@ -161,7 +161,7 @@ struct Taken {
 }
 
 impl Taken {
-    fn new(bodies: &[Body], largest: f64) -> Self {
+    fn new(bodies: &BodyList, largest: f64) -> Self {
         let mut taken = Self { cell: 2.0 * largest, cells: BTreeMap::new(), others: Vec::new() };
         for body in bodies {
             match body.shape {

@@ -13,7 +13,7 @@ use crate::scene::locate::{self, List};
 use crate::scene::read::{Item, Meaning};
 use crate::scene::rules::Range;
 use crate::scene::tree::Child;
-use crate::scene::{Body, Document, Motion, NodeKey, Scene};
+use crate::scene::{Body, BodyList, Document, Motion, NodeKey, Scene};
 
 /// The document after an edit that does nothing but move several bodies; `None` for any other edit, and where what one of them
 /// means could be something else than what it is given.
@@ -78,7 +78,7 @@ fn is_of_same(before: &[Move], now: &[Move]) -> bool {
 }
 
 /// The bodies of the scene after the moves; `None` where one is not there, or has no velocity to change.
-fn moved_bodies(scene: &Scene, moves: &[Move]) -> Option<Vec<Body>> {
+fn moved_bodies(scene: &Scene, moves: &[Move]) -> Option<BodyList> {
     let mut bodies = scene.bodies.clone();
     let places = OnceLock::<FxHashMap<NodeKey, usize>>::new();
     let mut next = 0;

@@ -30,11 +30,11 @@ pub(super) fn patched(pen: Pen<'_>, old: &Meaning, changes: &Changes) -> Option<
         bodies.insert(body.key, body);
     }
     let before = old.scene.as_deref()?;
-    let now = |old: &Body| match bodies.remove(&old.key) {
-        Some(body) => Body { id: old.id, label: old.label.clone(), ..body.clone() },
+    let now = |old: &Arc<Body>| match bodies.remove(&old.key) {
+        Some(body) => Arc::new(Body { id: old.id, label: old.label.clone(), ..body.clone() }),
         None => old.clone(),
     };
-    let now = before.bodies.iter().map(now).collect();
+    let now = before.bodies.as_slice().iter().map(now).collect();
     let Scene { map, time_speed, params, ref forces, bodies: _ } = *before;
     let scene = Scene { map, time_speed, params, forces: forces.clone(), bodies: now };
     if !bodies.is_empty() {
@@ -64,12 +64,12 @@ pub(super) fn reading_after(before: &ItemReading, change: &BodyChange) -> Option
         | (BodyChange::Shape(now @ Shape::Plane { .. }), motion, Shape::Plane { .. }) => (motion, now),
         _ => return None,
     };
-    let mut body = Body { motion, shape: shape.clone(), ..body.clone() };
+    let mut body = Body { motion, shape: shape.clone(), ..(**body).clone() };
     match *change {
         BodyChange::Position(position) => body.position = position,
         BodyChange::Rotation(rotation) => body.rotation = rotation,
         _ => {}
     }
     let (problems, uses) = (before.problems.clone(), before.uses.clone());
-    Some(ItemReading { item: Item::Body(body), id: before.id, problems, uses })
+    Some(ItemReading { item: Item::Body(Arc::new(body)), id: before.id, problems, uses })
 }

@@ -29,7 +29,7 @@ impl Touched {
 
     /// What of this differs between two scenes.
     pub fn that_differs(&self, before: &Scene, after: &Scene) -> Self {
-        let bodies = self.differing(&before.bodies, &after.bodies, |body| body.key);
+        let bodies = self.differing(before.bodies.as_slice(), after.bodies.as_slice(), |body| body.key);
         let forces = self.differing(&before.forces, &after.forces, |force| force.key);
         let keys = bodies.into_iter().chain(forces).collect();
         let settings = self.settings

@@ -6,12 +6,13 @@ use super::feature::{self, Use};
 use super::log::Log;
 use super::problem::{Limited, Problem};
 use super::{body, cosmetic, force};
+use crate::scene::ids::Label;
 use crate::scene::tree::View;
 use crate::scene::{Body, Force};
 
 #[derive(Clone, Debug)]
 pub(in crate::scene) struct ItemReading {
-    /// With the `UserID` of the file or 0, and without label: they depend on the other elements.
+    /// With the `UserID` of the file and the label that it has alone, or without both: the rest depends on the other elements.
     pub item: Item,
     pub id: Option<i64>,
     /// Paths begin below the element.
@@ -22,8 +23,9 @@ pub(in crate::scene) struct ItemReading {
 
 #[derive(Clone, Debug)]
 pub(in crate::scene) enum Item {
-    Body(Body),
-    Force(Force),
+    Body(Arc<Body>),
+    /// Behind a pointer too: there are a hundred thousand bodies for one force.
+    Force(Box<Force>),
     /// An element that is neither.
     Unknown,
 }
@@ -44,20 +46,26 @@ impl ItemReading {
 
     /// Reads a child of `Primitives`.
     pub fn of_body(el: View<'_>) -> Self {
-        Self::of(el, &body::BODIES, |el, log, cosmetics, uses| {
-            Item::Body(body::read(el, log, cosmetics, uses))
+        Self::of(el, &body::BODIES, |el, (log, id), cosmetics, uses| {
+            let body = body::read(el, log, cosmetics, uses);
+            // As it is called if no other has its id, so that the scene can share it.
+            let own = id.map(|id| Label { id, repeat: 1 });
+            let (id, label) = own.map_or((0, String::new()), |own| (own.id, own.text()));
+            Item::Body(Arc::new(Body { id, label, ..body }))
         })
     }
 
     /// Reads a child of `Forces`.
     pub fn of_force(el: View<'_>) -> Self {
-        Self::of(el, &force::FORCES, |el, log, cosmetics, _| Item::Force(force::read(el, log, cosmetics)))
+        Self::of(el, &force::FORCES, |el, (log, _), cosmetics, _| {
+            Item::Force(Box::new(force::read(el, log, cosmetics)))
+        })
     }
 
     fn of<'a>(
         el: View<'a>,
         known: &[&str],
-        read: impl FnOnce(View<'a>, &mut Log<'a>, cosmetic::Cosmetics, &mut Vec<Use>) -> Item,
+        read: impl FnOnce(View<'a>, (&mut Log<'a>, Option<i64>), cosmetic::Cosmetics, &mut Vec<Use>) -> Item,
     ) -> Self {
         let mut log = Log::default();
         let mut uses = Vec::new();
@@ -69,7 +77,7 @@ impl ItemReading {
         log.check_attributes(el, &["UserID"]);
         let id = log.user_id(el);
         let cosmetics = cosmetic::read(el, &mut log);
-        let item = read(el, &mut log, cosmetics, &mut uses);
+        let item = read(el, (&mut log, id), cosmetics, &mut uses);
         Self { item, id, problems: log.problems, uses }
     }
 }

@@ -11,7 +11,7 @@ use crate::scene::ids::{Label, Labels};
 use crate::scene::rules::MAX_ITEMS;
 use crate::scene::source::Source;
 use crate::scene::tree::{Children, View};
-use crate::scene::{Diagnostic, NodeKey, Scene, Severity, SimParams, locate, shown};
+use crate::scene::{BodyList, Diagnostic, NodeKey, Scene, Severity, SimParams, locate, shown};
 
 /// What a document says.
 #[derive(Debug, Default)]
@@ -69,7 +69,7 @@ impl Reader {
             time_speed: 1.0,
             params: SimParams::default(),
             forces: Vec::new(),
-            bodies: Vec::new(),
+            bodies: BodyList::new(),
         };
         if let Some(el) = simulation {
             self.simulation(el, &mut scene);
@@ -103,7 +103,7 @@ impl Reader {
         self.list(el, path, ItemReading::of_force, |item, label| {
             if let Item::Force(force) = item {
                 let (id, label) = (label.id, label.text());
-                scene.forces.push(crate::scene::Force { id, label, ..force.clone() });
+                scene.forces.push(crate::scene::Force { id, label, ..(**force).clone() });
             }
         });
     }
@@ -113,8 +113,11 @@ impl Reader {
         scene.bodies.reserve(el.node.children(el.source).len() / 2);
         self.list(el, "/PolyPhysicsXml/Primitives", ItemReading::of_body, |item, label| {
             if let Item::Body(body) = item {
-                let (id, label) = (label.id, label.text());
-                scene.bodies.push(crate::scene::Body { id, label, ..body.clone() });
+                let is_shared = label.repeat == 1 && body.id == label.id && !body.label.is_empty();
+                let renamed =
+                    || Arc::new(crate::scene::Body { id: label.id, label: label.text(), ..(**body).clone() });
+                let body = if is_shared { body.clone() } else { renamed() };
+                scene.bodies.push(body);
             }
         });
     }

@@ -129,7 +129,7 @@ fn gas(side: u32, packing: f64) -> Scene {
         time_speed: 1.0,
         params: SimParams::default(),
         forces: Vec::new(),
-        bodies,
+        bodies: bodies.into(),
     }
 }
 

@@ -104,7 +104,7 @@ fn permuted_differences(trial: &Trial, expected: &[BodyState], until: f64) -> Re
     let mut scene = trial.scene.clone();
     let mut random = Random::new(5);
     for last in (1..scene.bodies.len()).rev() {
-        scene.bodies.swap(last, random.below(last + 1));
+        scene.bodies.as_mut_slice().swap(last, random.below(last + 1));
     }
     let permuted = Trial { scene, dt: trial.dt, budget: trial.budget };
     let mut sim = permuted.start()?;

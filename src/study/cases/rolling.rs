@@ -45,7 +45,7 @@ fn incline(balls: &[(f64, [f64; 2])]) -> Scene {
     let acceleration = DVec3::new(0.0, -GRAVITY, 0.0);
     let gravity = Force::new(1, ForceKind::GravityPlane { position: MIDDLE, acceleration });
     let map = Map { size: DVec3::new(60.0, 30.0, 20.0), tiles: [12, 6, 4] };
-    Scene { map, time_speed: 1.0, params: SimParams::default(), forces: vec![gravity], bodies }
+    Scene { map, time_speed: 1.0, params: SimParams::default(), forces: vec![gravity], bodies: bodies.into() }
 }
 
 /// Where a ball touches the incline at the start.

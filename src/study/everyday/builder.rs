@@ -136,7 +136,7 @@ impl Builder {
             time_speed: 1.0,
             params: SimParams::default(),
             forces: self.forces,
-            bodies,
+            bodies: bodies.into(),
         }
     }
 

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::{DVec3, dvec3};
-use polyscene::scene::{Body, Force, ForceKind, Map, Motion, Scene, Shape, SimParams};
+use polyscene::scene::{Body, BodyList, Force, ForceKind, Map, Motion, Scene, Shape, SimParams};
 
 /// An empty map of 10×10×10 m and as many tiles.
 pub fn empty() -> Scene {
@@ -12,7 +12,7 @@ pub fn empty() -> Scene {
         time_speed: 1.0,
         params: SimParams::default(),
         forces: Vec::new(),
-        bodies: Vec::new(),
+        bodies: BodyList::new(),
     }
 }
 
