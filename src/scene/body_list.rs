@@ -38,10 +38,6 @@ impl BodyList {
         self.0.get_mut(at).map(Arc::make_mut)
     }
 
-    pub fn first(&self) -> Option<&Body> {
-        self.get(0)
-    }
-
     pub fn last(&self) -> Option<&Body> {
         self.0.last().map(AsRef::as_ref)
     }
@@ -65,10 +61,6 @@ impl BodyList {
 
     pub fn retain(&mut self, mut stays: impl FnMut(&Body) -> bool) {
         self.0.retain(|body| stays(body));
-    }
-
-    pub fn remove(&mut self, at: usize) {
-        self.0.remove(at);
     }
 
     /// Two different ones; `None` where one is missing.
