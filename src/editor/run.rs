@@ -86,7 +86,7 @@ impl Run {
     pub fn is_behind(&self) -> bool {
         let is_at_work = match self.frame.state {
             RunState::Busy => true,
-            RunState::Paused => !self.frame.is_settled,
+            RunState::Paused => !self.frame.is_settled || self.frame.seeks_cancelled,
             RunState::Empty | RunState::Playing | RunState::Faulted => false,
         };
         self.frame.command < self.sent || is_at_work

@@ -158,7 +158,7 @@ impl App {
         self.session.show_paths(self.views.show_overlay("trails").then_some(viewport::PATHS));
         self.session.show_tiles(self.views.show_overlay("tiles"));
         self.session.show_crossings(self.timeline.shows_crossings());
-        self.session.show_cancelled(self.ledger.shows_cancelled());
+        self.session.show_cancelled(self.ledger.told_cancelled());
         let blocked = self.session.question().is_some()
             || self.dialogs.are_open()
             || egui::Popup::is_any_open(ctx)

@@ -126,7 +126,8 @@ pub fn severity_icon(ui: &mut Ui, is_error: bool) -> Response {
 pub fn short_cell(row: &mut egui_extras::TableRow<'_, '_>, clip: Rect, text: RichText, help: &str) {
     row.col(|ui| {
         ui.set_clip_rect(clip);
-        let response = ui.add(egui::Label::new(text).truncate());
+        let label = egui::Label::new(text).truncate();
+        let response = ui.add(label.show_tooltip_when_elided(help.is_empty()));
         if !help.is_empty() {
             response.on_hover_text(help);
         }

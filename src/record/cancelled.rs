@@ -1,7 +1,7 @@
 //! Which predicted impacts an event cancelled. The queue of the core forgets them one by one as their turn comes, so a copy of the
 //! simulation goes from a keyframe to the event again, and what was predicted right before it is compared with what is right after.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 use super::ledger::EventRow;
@@ -11,8 +11,10 @@ use super::run::Run;
 use super::ways::{Cancelled, CancelledImpact};
 use crate::sim::{BodyRef, Method, PredictedImpact, Progress, Simulation};
 
-/// Two predictions of one impact made at different times differ by rounding, of their time.
+/// An impact that is predicted anew comes at the same time but for rounding of the time itself,
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
+/// and of the places and the ways until then, of the time left: integrated ones are known to 1e-8 as a rule.
+const OF_WAY: f64 = 1e-7;
 
 /// Finds them for the event shown, while somebody wants to know.
 #[derive(Debug, Default)]
@@ -43,6 +45,20 @@ impl Cancelling {
         self.found.clone().filter(|found| self.is_wanted && found.event == event)
     }
 
+    /// Whether what the event shown cancelled is still to be found.
+    pub(super) fn is_due(&self, run: &Run) -> bool {
+        self.is_wanted && run.event_shown().is_some() && self.found(run).is_none()
+    }
+
+    pub(super) fn is_searching(&self) -> bool {
+        self.search.is_some()
+    }
+
+    /// Something else is to be done.
+    pub(super) fn stop(&mut self) {
+        self.search = None;
+    }
+
     /// Another run, or another past: what is known of events is so no more.
     pub(super) fn forget(&mut self) {
         (self.search, self.found) = (None, None);
@@ -50,58 +66,50 @@ impl Cancelling {
 
     /// So many portions of the search for the event shown; whether there is more to do.
     pub(super) fn advance(&mut self, run: &Run, portions: u32) -> bool {
-        let row = run.event_shown().filter(|_| self.is_wanted);
-        let Some(row) =
-            row.filter(|row| self.found.as_ref().is_none_or(|found| found.event != row.event.seq))
-        else {
-            self.search = None;
+        let Some(row) = run.event_shown().filter(|_| self.is_due(run)) else {
+            self.stop();
             return false;
         };
-        let mut search = self.search.take().filter(|search| Arc::ptr_eq(&search.row, row));
-        for _ in 0..portions {
-            let going = search.take().or_else(|| Search::new(run, row).map(Box::new));
-            let outcome = match going {
-                Some(mut going) => {
-                    let outcome = going.portion(run);
-                    search = Some(going);
-                    outcome
-                }
-                None => Some(Err("the methods that step by Δt predict nothing".to_owned())),
-            };
-            if let Some(outcome) = outcome {
-                let (impacts, problem) = match outcome {
-                    Ok(impacts) => (impacts, None),
-                    Err(problem) => (Vec::new(), Some(problem)),
-                };
-                self.found = Some(Arc::new(Cancelled { event: row.event.seq, impacts, problem }));
-                return false;
-            }
+        let before = self.search.take().filter(|search| Arc::ptr_eq(&search.row, row));
+        let Some(mut search) = before.or_else(|| Search::new(run, row).map(Box::new)) else {
+            self.note(row, Err("the methods that step by Δt predict nothing".to_owned()));
+            return false;
+        };
+        match (0..portions).find_map(|_| search.portion(run)) {
+            Some(outcome) => self.note(row, outcome),
+            None => self.search = Some(search),
         }
-        self.search = search;
-        true
+        self.is_searching()
+    }
+
+    fn note(&mut self, row: &EventRow, outcome: Result<Vec<CancelledImpact>, String>) {
+        let (impacts, problem) = match outcome {
+            Ok(impacts) => (impacts, None),
+            Err(problem) => (Vec::new(), Some(problem)),
+        };
+        self.found = Some(Arc::new(Cancelled { event: row.event.seq, impacts, problem }));
     }
 }
 
 impl Search {
     /// From the last keyframe before the event; `None` where nothing is predicted.
     fn new(run: &Run, row: &Arc<EventRow>) -> Option<Self> {
-        let (first, _) = rows_of(row);
-        let goals = [before(run, first, row.event.time), Moment::right_after(first, row.event.time)];
-        let key = run.recording.keyframes.before(goals[0])?;
+        if run.simulation.method() != Method::Exact {
+            return None;
+        }
+        let goals =
+            [before(run, row.rows().0, row.event.time), Moment::right_after(row.rows().0, row.event.time)];
+        // An edit that was made right then is a later event, or this one.
+        let is_earlier = |at: Moment| at != goals[0] && at.is_not_after(goals[0]);
+        let edits = run.recording.edits().iter().take_while(|edit| is_earlier(edit.at)).count();
+        let key = run.recording.keyframes.before_edits(goals[0], edits)?;
         let simulation = key.snapshot.simulation().clone();
-        (simulation.method() == Method::Exact).then(|| Self {
-            row: row.clone(),
-            simulation,
-            at: key.at,
-            applied: key.edits,
-            goals,
-            before: None,
-        })
+        Some(Self { row: row.clone(), simulation, at: key.at, applied: key.edits, goals, before: None })
     }
 
     /// One portion of the way, and at its end what was found.
     fn portion(&mut self, run: &Run) -> Option<Result<Vec<CancelledImpact>, String>> {
-        self.apply_due_edits(run);
+        // Edits that were made at a goal came after it.
         if self.before.is_none() && self.at == self.goals[0] {
             self.before = Some(self.simulation.predicted_impacts());
         }
@@ -109,8 +117,9 @@ impl Search {
         if self.at == goal {
             return Some(Ok(self.compare(run)));
         }
+        let from = (self.at, self.applied);
+        self.apply_due_edits(run);
         let edit = run.recording.edits().get(self.applied).map_or(f64::INFINITY, |edit| edit.at.time);
-        let from = self.at;
         self.simulation.begin(goal.time.min(edit));
         match self.simulation.work(PREDICTIONS) {
             Ok(Progress::Event(event)) => self.at = Moment::right_after(event.seq, event.time),
@@ -120,7 +129,7 @@ impl Search {
         }
         // It was recorded the first time.
         self.simulation.take_motion(|_| {});
-        let is_stuck = self.at == from && self.at.is_over && edit > self.at.time;
+        let is_stuck = self.at.is_over && (self.at, self.applied) == from;
         (is_stuck || !self.at.is_not_after(goal))
             .then(|| Err("simulated again, the run does not come to this event".to_owned()))
     }
@@ -136,17 +145,19 @@ impl Search {
 
     /// What was predicted before the event, and neither happened by it nor is predicted for the same time after it.
     fn compare(&self, run: &Run) -> Vec<CancelledImpact> {
-        let (first, last) = rows_of(&self.row);
+        let (first, last) = self.row.rows();
         let rows = (first..=last).filter_map(|number| run.recording.ledger.get(number));
-        let happened: Vec<(BodyRef, Option<BodyRef>)> = rows.map(|row| (row.event.a, row.event.b)).collect();
+        let happened: HashSet<(BodyRef, BodyRef)> =
+            rows.filter_map(|row| Some((row.event.a, row.event.b?))).collect();
         let after = self.simulation.predicted_impacts();
         let after: HashMap<(BodyRef, BodyRef), f64> =
             after.into_iter().map(|impact| ((impact.a, impact.b), impact.time)).collect();
         let before = self.before.iter().flatten();
-        let gone = before.filter(|impact| !happened.contains(&(impact.a, Some(impact.b))));
+        let gone = before.filter(|impact| !happened.contains(&(impact.a, impact.b)));
         gone.filter_map(|impact| {
             let now = after.get(&(impact.a, impact.b)).copied();
-            let is_kept = now.is_some_and(|now| (now - impact.time).abs() <= ROUNDING * impact.time);
+            let slack = ROUNDING * impact.time + OF_WAY * (impact.time - self.row.event.time).max(0.0);
+            let is_kept = now.is_some_and(|now| (now - impact.time).abs() <= slack);
             (!is_kept).then(|| CancelledImpact {
                 keys: [impact.a, impact.b].map(|body| self.simulation.key(body)),
                 labels: [impact.a, impact.b].map(|body| self.simulation.shared_label(body)),
@@ -156,12 +167,6 @@ impl Search {
         })
         .collect()
     }
-}
-
-/// Numbers of the first and the last row of the impact that a row belongs to.
-pub(super) fn rows_of(row: &EventRow) -> (u64, u64) {
-    let [nth, of] = row.event.row_in_group.map(u64::from);
-    (row.event.seq - nth.saturating_sub(1), row.event.seq + of.saturating_sub(nth))
 }
 
 /// Right before an event: after all that happened earlier, or after the event before it at the same time.

@@ -176,6 +176,8 @@ pub struct Frame {
     pub at_impact: Arc<Vec<ImpactBody>>,
     /// What the event that is right now cancelled, if that is asked for, as soon as it is known.
     pub cancelled: Option<Arc<Cancelled>>,
+    /// Whether that is still looked for.
+    pub seeks_cancelled: bool,
     /// Ways of the bodies, if they are asked for.
     pub paths: Arc<Vec<BodyPath>>,
     /// Tile crossings in the Δt being looked at, of the bodies for which they are asked.

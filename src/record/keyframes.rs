@@ -73,6 +73,12 @@ impl Keyframes {
         head.or_else(|| self.list.iter().rev().find(|key| key.at.is_not_after(moment)))
     }
 
+    /// As [`Self::before`], of those with at most so many edits behind them.
+    pub(super) fn before_edits(&self, moment: Moment, edits: usize) -> Option<&Keyframe> {
+        let all = self.head.as_deref().into_iter().chain(self.list.iter().rev());
+        all.into_iter().find(|key| key.edits <= edits && key.at.is_not_after(moment))
+    }
+
     /// The one at a moment.
     pub(super) fn at(&self, moment: Moment) -> Option<&Keyframe> {
         self.before(moment).filter(|key| key.at == moment)

@@ -26,6 +26,12 @@ impl EventRow {
         Self { event: *event, a_key, b_key, a_label, b_label: b.map(|(_, label)| label).unwrap_or_default() }
     }
 
+    /// Numbers of the first and the last row of the impact that this one belongs to.
+    pub fn rows(&self) -> (u64, u64) {
+        let [nth, of] = self.event.row_in_group.map(u64::from);
+        (self.event.seq - nth.saturating_sub(1), self.event.seq + of.saturating_sub(nth))
+    }
+
     /// Energy that the impact left the bodies with, less what they came with, J, ≤ 0 but for rounding: of an impulse J
     /// along the normal ½ J (v⁻ + v⁺), with the normal speeds before and after.
     pub fn energy_change(&self) -> Option<f64> {

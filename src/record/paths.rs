@@ -2,7 +2,6 @@
 
 use glam::DVec3;
 
-use super::cancelled::rows_of;
 use super::moment::Moment;
 use super::run::Run;
 use super::ways::{BodyPath, ImpactBody, PathSpan};
@@ -70,7 +69,7 @@ pub(super) fn at_impact(run: &Run) -> Vec<ImpactBody> {
     let ledger = &run.recording.ledger;
     let Some(row) = run.event_shown() else { return Vec::new() };
     // The rows of an impact group are one impact.
-    let (first, last) = rows_of(row);
+    let (first, last) = row.rows();
     let mut bodies: Vec<BodyRef> = (first..=last)
         .filter_map(|number| ledger.get(number))
         .flat_map(|row| [Some(row.event.a), row.event.b].into_iter().flatten())

@@ -50,7 +50,8 @@ pub(super) fn frame_of(recorder: &mut RunRecorder, revision: u64, command: u64, 
         ..Frame::default()
     };
     let cancelled = recorder.run.as_ref().and_then(|run| recorder.cancelling.found(run));
-    let base = Frame { cancelled, ..base };
+    let seeks_cancelled = recorder.run.as_ref().is_some_and(|run| recorder.cancelling.is_due(run));
+    let base = Frame { cancelled, seeks_cancelled, ..base };
     let (span, crossed, tiles) = (recorder.paths, recorder.crossings.clone(), recorder.tiles);
     match &mut recorder.run {
         None => base,

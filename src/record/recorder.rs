@@ -85,6 +85,7 @@ impl RunRecorder {
                 self.forget_work();
                 (self.run, self.motion, self.problems) = (None, None, Arc::default());
                 self.replaced = None;
+                self.cancelling.forget();
             }
             RunCommand::Reset => self.reset(),
             RunCommand::Method(method) if method != self.method => {
@@ -124,6 +125,11 @@ impl RunRecorder {
             (_, Task::Idle) if self.waiting.is_empty() && self.edits.is_empty() => RunState::Paused,
             _ => RunState::Busy,
         }
+    }
+
+    /// Whether what an event cancelled is being looked for.
+    pub(super) fn is_searching(&self) -> bool {
+        self.cancelling.is_searching()
     }
 
     /// Notes that wall-clock time has passed, while playing.
@@ -245,6 +251,7 @@ impl RunRecorder {
         }
         let Some(command) = self.next_waiting() else { return false };
         let Some(run) = &mut self.run else { return false };
+        self.cancelling.stop();
         run.message = None;
         let is_valid = |dt: f64| dt.is_finite() && dt > 0.0;
         match command {

@@ -105,6 +105,8 @@ struct Worker {
     command: u64,
     /// Whether no frame knows of it yet.
     is_unseen: bool,
+    /// Whether the last frame showed the simulation where it stands.
+    is_settled_seen: bool,
     on_frame: Box<dyn Fn() + Send>,
     recorder: RunRecorder,
     revision: u64,
@@ -140,7 +142,17 @@ impl Worker {
             pace: Pace::default(),
         };
         let recorder = RunRecorder::default();
-        Self { commands, shared, command: 0, is_unseen: false, on_frame, recorder, revision: 0, clock }
+        Self {
+            commands,
+            shared,
+            command: 0,
+            is_unseen: false,
+            is_settled_seen: false,
+            on_frame,
+            recorder,
+            revision: 0,
+            clock,
+        }
     }
 
     fn run(mut self, closing: &AtomicBool) {
@@ -169,7 +181,9 @@ impl Worker {
             // What a command has looked up is shown at once, unless making frames takes longer than commands come.
             self.is_unseen |= received;
             let is_looked_up = self.is_unseen && self.clock.last_frame.elapsed() >= self.clock.publishing;
-            if done || is_looked_up || ((busy || was_working) && self.frame_is_due()) {
+            // While it only looks for what an event cancelled, there is nothing new to see.
+            let is_new = !(self.recorder.is_searching() && self.is_settled_seen);
+            if done || is_looked_up || ((busy || was_working) && is_new && self.frame_is_due()) {
                 self.publish();
             }
         }
@@ -207,6 +221,7 @@ impl Worker {
         self.measure();
         self.revision += 1;
         let frame = Arc::new(frame_of(&mut self.recorder, self.revision, self.command, self.clock.pace));
+        self.is_settled_seen = frame.is_settled;
         self.shared.set(frame);
         self.is_unseen = false;
         self.clock.last_frame = Instant::now();

@@ -74,6 +74,53 @@ fn edits_on_the_way_count() {
     assert!((first - 1.75).abs() < 1e-12 && (second - 3.0).abs() < 1e-12, "{times:?}");
 }
 
+/// Symptom: what an edit cancelled that was made at an event counted as cancelled by that event, and the edit as cancelling nothing.
+#[test]
+fn an_edit_made_at_an_event_cancels_for_itself() {
+    let scene = crossing().ball(4, dvec3(1.0, 1.0, 1.0), DVec3::X).ball(5, dvec3(8.0, 1.0, 1.0), DVec3::ZERO);
+    let mut runner = loaded(&scene);
+    let of_event = next_event(&mut runner).cancelled.clone();
+    runner.send(RunCommand::Edit(vec![SimEdit::Remove(NodeKey(5))]));
+    let edit = next_event(&mut runner);
+    for _ in 0..2 {
+        runner.send(RunCommand::GoTo { event: 1 });
+        assert_eq!(runner.frame().cancelled, of_event);
+        runner.send(RunCommand::GoTo { event: edit.event_count });
+        let frame = runner.frame();
+        let [impact] = cancelled(&frame).impacts.as_slice() else { panic!("{:?}", frame.cancelled) };
+        assert_eq!((impact.keys, impact.now), ([NodeKey(4), NodeKey(5)], None));
+        assert!((impact.time - 6.0).abs() < 1e-12, "{}", impact.time);
+    }
+}
+
+/// An edit begins the ways of all bodies anew, and what was predicted of them is the same but for rounding and what integrating
+/// leaves.
+#[test]
+fn what_is_predicted_anew_for_the_same_time_is_not_cancelled() {
+    for density in [0.0, 0.3] {
+        let mut scene = empty().air(density);
+        scene.map.size = DVec3::splat(1000.0);
+        let mut scene = scene.tiles([1; 3]);
+        for row in 0..20 {
+            let (y, z) = (900.0 + 4.0 * f64::from(row % 4), 900.0 + 4.0 * f64::from(row / 4));
+            let speed = 0.02 + 0.4 * f64::from(row);
+            let id = i64::from(2 * row) + 1;
+            scene = scene.ball(id, dvec3(900.0, y, z), dvec3(speed, 0.0, 0.0)).ball(
+                id + 1,
+                dvec3(901.0 + 0.3 * speed, y, z),
+                DVec3::ZERO,
+            );
+        }
+        let mut runner = loaded(&scene);
+        runner.send(RunCommand::Step { dt: 0.1, count: 1 });
+        let stone = static_ball(1000, DVec3::splat(5.0), 0.5);
+        runner.send(RunCommand::Edit(vec![SimEdit::AddBody(Box::new(stone))]));
+        let frame = next_event(&mut runner);
+        assert_eq!(frame.ledger.get(1).expect("the edit").a_key, NodeKey(1000));
+        assert_eq!(cancelled(&frame).impacts, [], "in air of {density} kg/m³");
+    }
+}
+
 #[test]
 fn methods_without_predictions_say_so() {
     let mut runner = loaded(&crossing());

@@ -50,9 +50,9 @@ impl Overlaps {
         self.worst = self.worst.max(depth);
     }
 
-    /// The deepest, if it is deeper than when the run began.
-    pub fn later(&self) -> Option<f64> {
-        (self.worst > self.first.unwrap_or(0.0)).then_some(self.worst)
+    /// How much deeper than when the run began.
+    pub fn more(&self) -> f64 {
+        self.worst - self.first.unwrap_or(0.0)
     }
 }
 

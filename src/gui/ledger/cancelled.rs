@@ -20,10 +20,10 @@ pub(super) fn show(ui: &mut Ui, context: &AppContext<'_>) {
     let frame = context.session.frame();
     let weak = |text: String| RichText::new(text).small().color(tones(ui).weak);
     let Some(cancelled) = &frame.cancelled else {
-        let text = if frame.at_impact.is_empty() {
-            "Go to an event to see which predicted impacts it cancelled".to_owned()
-        } else {
+        let text = if frame.seeks_cancelled {
             format!("Looking for what event {} cancelled…", frame.event_count)
+        } else {
+            "Go to an event to see which predicted impacts it cancelled".to_owned()
         };
         ui.add(Label::new(weak(text)).truncate());
         return;
@@ -34,8 +34,10 @@ pub(super) fn show(ui: &mut Ui, context: &AppContext<'_>) {
         return;
     }
     let label = Label::new(text).truncate().sense(Sense::click()).show_tooltip_when_elided(false);
-    let help = || format!("{}\nClick: select these bodies", lines(context, cancelled));
-    if ui.add(label).on_hover_text(help()).clicked() {
+    let response = ui.add(label).on_hover_ui(|ui| {
+        ui.label(format!("{}\nClick: select these bodies", lines(context, cancelled)));
+    });
+    if response.clicked() {
         let mut keys: Vec<NodeKey> = cancelled.impacts.iter().flat_map(|impact| impact.keys).collect();
         keys.sort_unstable();
         keys.dedup();
@@ -61,7 +63,9 @@ fn line(context: &AppContext<'_>, cancelled: &Cancelled) -> String {
 
 /// Each in its own line.
 fn lines(context: &AppContext<'_>, cancelled: &Cancelled) -> String {
-    let mut text = "Were to meet, had this event not been:".to_owned();
+    let mut text = "Were to meet, had this event not been (now not: or not foreseen yet, for who is far off or whose way is \
+        integrated is predicted piece by piece):"
+        .to_owned();
     for impact in cancelled.impacts.iter().take(MOST) {
         let _ = write!(text, "\n{}", described(context, impact));
     }
@@ -80,6 +84,6 @@ fn described(context: &AppContext<'_>, impact: &CancelledImpact) -> String {
     let time = significant(impact.time, 7);
     match impact.now {
         Some(now) => format!("{bodies} at {time} s, now {} s", significant(now, 7)),
-        None => format!("{bodies} at {time} s"),
+        None => format!("{bodies} at {time} s, now not"),
     }
 }

@@ -33,6 +33,8 @@ pub struct LedgerPanel {
     listed: Listed,
     /// Whether the columns of costs are shown and written.
     costs: bool,
+    /// Whether there was a place for what the event shown cancelled, this turn.
+    tells_cancelled: bool,
     /// The event shown when the list was scrolled to it last.
     scrolled_to: Option<u64>,
     /// Where to scroll to next, as a share of all rows.
@@ -54,6 +56,7 @@ impl LedgerPanel {
             ui.ctx().request_repaint();
         }
         if self.costs {
+            self.tells_cancelled = true;
             cancelled::show(ui, context);
         }
         self.table(ui, context);
@@ -64,9 +67,9 @@ impl LedgerPanel {
         self.costs = true;
     }
 
-    /// Whether it says what the event shown cancelled.
-    pub fn shows_cancelled(&self) -> bool {
-        self.costs
+    /// Whether it said in the last turn what the event shown cancelled.
+    pub fn told_cancelled(&mut self) -> bool {
+        std::mem::take(&mut self.tells_cancelled)
     }
 
     /// What the row of tabs says of it.

@@ -1,5 +1,6 @@
 //! Draw lists onto the window: the picture by OpenGL, its labels by egui.
 
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -20,7 +21,8 @@ pub struct Canvas {
 
 struct Gpu {
     renderer: Mutex<Renderer>,
-    failure: Mutex<Option<String>>,
+    /// Why the pictures of some views were not drawn.
+    failures: Mutex<BTreeMap<usize, String>>,
     drafts: Mutex<Drafts>,
     redraws: AtomicU64,
 }
@@ -34,7 +36,7 @@ impl Canvas {
             Some(Ok(renderer)) => {
                 let gpu = Gpu {
                     renderer: Mutex::new(renderer),
-                    failure: Mutex::new(None),
+                    failures: Mutex::default(),
                     drafts: Mutex::default(),
                     redraws: AtomicU64::new(0),
                 };
@@ -63,8 +65,12 @@ impl Canvas {
     /// else as soon as it has its turn.
     pub fn draw(&self, ui: &Ui, (view, waits): (usize, bool), rect: Rect, list: &Arc<DrawList>) {
         let painter = ui.painter_at(rect);
-        let [ground, _] = list.background;
         if let Some(gpu) = &self.gpu {
+            let failure = gpu.failures().get(&view).cloned();
+            if failure.is_some() {
+                let [ground, _] = list.background;
+                painter.rect_filled(rect, 0.0, color32(ground));
+            }
             let now_s = ui.input(|input| input.time);
             let (quality, again_s) = gpu.drafts().quality(view, (list.revision, waits), now_s);
             if let Some(again_s) = again_s {
@@ -74,8 +80,7 @@ impl Canvas {
             let callback =
                 egui_glow::CallbackFn::new(move |info, _| gpu.paint((view, quality), &list, &info));
             painter.add(egui::PaintCallback { rect, callback: Arc::new(callback) });
-            if let Some(failure) = self.failure() {
-                painter.rect_filled(rect, 0.0, color32(ground));
+            if let Some(failure) = failure {
                 let font = FontId::proportional(13.0);
                 let color = ui.visuals().error_fg_color;
                 painter.text(rect.center(), Align2::CENTER_CENTER, failure, font, color);
@@ -86,16 +91,15 @@ impl Canvas {
         }
         draw_notes(&painter, rect, list);
     }
-
-    fn failure(&self) -> Option<String> {
-        let gpu = self.gpu.as_ref()?;
-        gpu.failure.lock().unwrap_or_else(PoisonError::into_inner).clone()
-    }
 }
 
 impl Gpu {
     fn drafts(&self) -> MutexGuard<'_, Drafts> {
         self.drafts.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn failures(&self) -> MutexGuard<'_, BTreeMap<usize, String>> {
+        self.failures.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn paint(&self, (view, quality): (usize, Quality), list: &DrawList, info: &egui::PaintCallbackInfo) {
@@ -106,12 +110,12 @@ impl Gpu {
         match renderer.paint(view, list, Showing { rect, clip, quality }) {
             Ok(false) => {}
             Ok(true) => {
+                self.failures().remove(&view);
                 self.drafts().note(view, quality, begun.elapsed().as_secs_f64());
                 self.redraws.fetch_add(1, Ordering::Relaxed);
             }
             Err(error) => {
-                let mut failure = self.failure.lock().unwrap_or_else(PoisonError::into_inner);
-                *failure = Some(error.to_string());
+                self.failures().insert(view, error.to_string());
             }
         }
     }

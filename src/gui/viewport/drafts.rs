@@ -28,8 +28,9 @@ struct Drawn {
     /// What is to be seen, and since when, s.
     revision: u64,
     since_s: f64,
-    /// Whether that was drawn in full.
+    /// Whether that was drawn in full, and whether it was to be.
     is_full: bool,
+    had_turn: bool,
 }
 
 impl Drafts {
@@ -47,7 +48,7 @@ impl Drafts {
             drawn.since_s = now_s;
         }
         if drawn.revision != revision || revision == 0 {
-            *drawn = Drawn { revision, since_s: now_s, is_full: false, ..*drawn };
+            *drawn = Drawn { revision, since_s: now_s, is_full: false, had_turn: false, ..*drawn };
         }
         if self.in_full || drawn.is_full || drawn.full_s <= SLOW_S {
             return (Quality::Full, None);
@@ -56,9 +57,11 @@ impl Drafts {
         if left > 0.0 {
             return (Quality::Draft, Some(left));
         }
-        if self.refined_s.replace(now_s) == Some(now_s) {
+        // One that had its turn and was not drawn, for nothing of it is seen, keeps nobody waiting.
+        if !drawn.had_turn && self.refined_s.replace(now_s) == Some(now_s) {
             return (Quality::Draft, Some(0.0));
         }
+        drawn.had_turn = true;
         (Quality::Full, None)
     }
 
@@ -131,6 +134,20 @@ mod tests {
             }
         }
         assert!(!drafts.has_drafts(|_| true));
+    }
+
+    /// Nothing of it may be seen, or its drawing fails.
+    #[test]
+    fn a_view_that_is_not_drawn_keeps_nobody_waiting() {
+        let mut drafts = Drafts::default();
+        for view in 0..2 {
+            drafts.note(view, Quality::Full, 0.03);
+            drafts.quality(view, (1, false), 1.0);
+        }
+        assert_eq!(drafts.quality(0, (1, false), 2.0), (Quality::Full, None));
+        assert_eq!(drafts.quality(1, (1, false), 2.0), (Quality::Draft, Some(0.0)));
+        assert_eq!(drafts.quality(0, (1, false), 2.1), (Quality::Full, None), "it was not drawn");
+        assert_eq!(drafts.quality(1, (1, false), 2.1), (Quality::Full, None));
     }
 
     /// Symptom: while many bodies were dragged, views that waited for their turn longer than a rest were drawn in full in

@@ -31,7 +31,8 @@ pub(super) fn patched(pen: Pen<'_>, old: &Meaning, changes: &Changes) -> Option<
     }
     let before = old.scene.as_deref()?;
     let now = |old: &Arc<Body>| match bodies.remove(&old.key) {
-        Some(body) => Arc::new(Body { id: old.id, label: old.label.clone(), ..body.clone() }),
+        Some(body) if (body.id, &body.label) == (old.id, &old.label) => body.clone(),
+        Some(body) => Arc::new(Body { id: old.id, label: old.label.clone(), ..(**body).clone() }),
         None => old.clone(),
     };
     let now = before.bodies.as_slice().iter().map(now).collect();

@@ -37,7 +37,7 @@ impl ItemReading {
     }
 
     /// The body, if the element is one.
-    pub fn body(&self) -> Option<&Body> {
+    pub fn body(&self) -> Option<&Arc<Body>> {
         match &self.item {
             Item::Body(body) => Some(body),
             Item::Force(_) | Item::Unknown => None,
