@@ -97,8 +97,8 @@ impl Search {
         if run.simulation.method() != Method::Exact {
             return None;
         }
-        let goals =
-            [before(run, row.rows().0, row.event.time), Moment::right_after(row.rows().0, row.event.time)];
+        let ((first, _), time) = (row.rows(), row.event.time);
+        let goals = [before(run, first, time), Moment::right_after(first, time)];
         // An edit that was made right then is a later event, or this one.
         let is_earlier = |at: Moment| at != goals[0] && at.is_not_after(goals[0]);
         let edits = run.recording.edits().iter().take_while(|edit| is_earlier(edit.at)).count();

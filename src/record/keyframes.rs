@@ -69,14 +69,13 @@ impl Keyframes {
 
     /// The last one not after a moment.
     pub(super) fn before(&self, moment: Moment) -> Option<&Keyframe> {
-        let head = self.head.as_deref().filter(|head| head.at.is_not_after(moment));
-        head.or_else(|| self.list.iter().rev().find(|key| key.at.is_not_after(moment)))
+        self.before_edits(moment, usize::MAX)
     }
 
     /// As [`Self::before`], of those with at most so many edits behind them.
     pub(super) fn before_edits(&self, moment: Moment, edits: usize) -> Option<&Keyframe> {
-        let all = self.head.as_deref().into_iter().chain(self.list.iter().rev());
-        all.into_iter().find(|key| key.edits <= edits && key.at.is_not_after(moment))
+        let mut all = self.head.as_deref().into_iter().chain(self.list.iter().rev());
+        all.find(|key| key.edits <= edits && key.at.is_not_after(moment))
     }
 
     /// The one at a moment.

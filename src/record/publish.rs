@@ -43,15 +43,14 @@ pub(super) fn frame_of(recorder: &mut RunRecorder, revision: u64, command: u64, 
         events_per_s: pace.events_per_s,
         real_speed: pace.real_speed,
         lag: pace.lag,
+        cancelled: recorder.run.as_ref().and_then(|run| recorder.cancelling.found(run)),
+        seeks_cancelled: recorder.run.as_ref().is_some_and(|run| recorder.cancelling.is_due(run)),
         recorded: recorder.run.as_ref().map_or_else(Arc::default, |run| {
             let (bytes, can_bring_back) = (recorder.bytes(), recorder.can_bring_back());
             Arc::new(Recorded { bytes, can_bring_back, ..recorded(run) })
         }),
         ..Frame::default()
     };
-    let cancelled = recorder.run.as_ref().and_then(|run| recorder.cancelling.found(run));
-    let seeks_cancelled = recorder.run.as_ref().is_some_and(|run| recorder.cancelling.is_due(run));
-    let base = Frame { cancelled, seeks_cancelled, ..base };
     let (span, crossed, tiles) = (recorder.paths, recorder.crossings.clone(), recorder.tiles);
     match &mut recorder.run {
         None => base,

@@ -168,7 +168,7 @@ fn costs_tell_what_the_event_shown_cancelled() {
     assert_eq!(window.frame().event_count, 1);
     assert!(window.frame().cancelled.is_none(), "nobody asked");
     window.click_role(Role::CheckBox, "Costs");
-    let line = "Event 1 cancelled 1 predicted impact: 1 – 2 at 3 s, now not";
+    let line = "Event 1 cancelled 1 predicted impact: 1 – 2 at 3 s, not predicted now";
     assert!(window.has(line), "{:?}", window.labels());
     window.click(line);
     let keys: Vec<_> = ["1", "2"].map(|label| window.body(label).key).into();

@@ -63,8 +63,8 @@ fn line(context: &AppContext<'_>, cancelled: &Cancelled) -> String {
 
 /// Each in its own line.
 fn lines(context: &AppContext<'_>, cancelled: &Cancelled) -> String {
-    let mut text = "Were to meet, had this event not been (now not: or not foreseen yet, for who is far off or whose way is \
-        integrated is predicted piece by piece):"
+    let mut text = "Predicted before this event, and no more after it. What is not predicted now may still come: bodies far off, and \
+        ways that are integrated, are searched piece by piece."
         .to_owned();
     for impact in cancelled.impacts.iter().take(MOST) {
         let _ = write!(text, "\n{}", described(context, impact));
@@ -84,6 +84,6 @@ fn described(context: &AppContext<'_>, impact: &CancelledImpact) -> String {
     let time = significant(impact.time, 7);
     match impact.now {
         Some(now) => format!("{bodies} at {time} s, now {} s", significant(now, 7)),
-        None => format!("{bodies} at {time} s, now not"),
+        None => format!("{bodies} at {time} s, not predicted now"),
     }
 }
