@@ -3,8 +3,8 @@
 use super::data::{Component, Dense, Listed, Role};
 use super::stepped::{FIXED, Near};
 
-/// Finds the components of a new list.
-pub(super) fn find(dense: &mut Dense) {
+/// Finds the components of a new list, of which these are the forces, N.
+pub(super) fn find(dense: &mut Dense, forces: &[f64]) {
     let mut roots = roots(dense);
     let mut components: Vec<Component> = Vec::new();
     // Memory to be used again.
@@ -24,11 +24,11 @@ pub(super) fn find(dense: &mut Dense) {
     }
     let is_large = |slot: u32| components[places[slot as usize].0 as usize].slots.len() >= LARGE;
     for index in in_order_of_colours(&dense.pairs, dense.members.len(), is_large) {
-        let Listed { pair, slots: [a, b], force } = dense.pairs[index as usize];
+        let Listed { pair, slots: [a, b] } = dense.pairs[index as usize];
         let (number, a) = places[a as usize];
         let b = if b == FIXED { FIXED } else { places[b as usize].1 };
         let component = &mut components[number as usize];
-        component.near.push(Near { pair, listed: index, a, b, force });
+        component.near.push(Near { pair, listed: index, a, b, force: forces[index as usize] });
         let is_frozen = |body: u32| matches!(dense.role(body), Role::Frozen(_));
         if b == FIXED && pair.dynamic().any(is_frozen) {
             component.with_frozen.push(index);

@@ -76,8 +76,6 @@ pub(in crate::sim) struct Listed {
     pub pair: Pair,
     /// Places among the members: of one of the two, and of the other, or [`FIXED`](super::stepped::FIXED).
     pub slots: [u32; 2],
-    /// Force between them in the last step, N.
-    pub force: f64,
 }
 
 /// Members connected by listed pairs, which are stepped together.
@@ -184,6 +182,11 @@ impl Dense {
     pub fn push_body(&mut self) {
         self.roles.push(Role::Outside);
         self.activity.push(Activity::default());
+    }
+
+    /// The listed pairs of the components, each with its place in the list and the force of the last step.
+    pub(super) fn listed(&self) -> impl Iterator<Item = &Near> {
+        self.components.iter().flat_map(|component| &component.near)
     }
 
     pub fn role(&self, body: u32) -> Role {

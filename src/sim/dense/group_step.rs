@@ -404,15 +404,11 @@ fn note_forces(dense: &mut Dense, component: &mut Component, h: f64) {
         let member = &mut dense.members[*slot as usize];
         member.idle = member.idle.saturating_add(1);
     }
-    for near in near.iter_mut().filter(|near| near.force != 0.0) {
-        near.force = 0.0;
-        dense.pairs[near.listed as usize].force = 0.0;
-    }
+    near.iter_mut().for_each(|near| near.force = 0.0);
     for contact in work.contacts.iter().filter(|contact| contact.impulse > 0.0) {
-        let force = contact.impulse / h;
-        near[contact.near as usize].force = force;
-        dense.pairs[contact.listed as usize].force = force;
-        if near[contact.near as usize].pair.second().is_some() {
+        let near = &mut near[contact.near as usize];
+        near.force = contact.impulse / h;
+        if near.pair.second().is_some() {
             for slot in [contact.a, contact.b].into_iter().filter_map(|body| slots.get(body as usize)) {
                 dense.members[*slot as usize].idle = 0;
             }

@@ -37,12 +37,12 @@ pub(super) fn make(model: &Model, state: &mut State, dense: &mut Dense, time: f6
     let outsiders = near_pairs(model, state, dense, &mut pairs);
     pairs.sort_unstable_by_key(|listed| listed.pair);
     if model.plan.spin {
-        dense.rubs = carried_rubs(&dense.pairs, &dense.rubs, &pairs);
+        dense.rubs = carried(&dense.pairs, &dense.rubs, &pairs);
     }
-    carry_forces(&dense.pairs, &mut pairs);
+    let forces = carried(&dense.pairs, &forces(dense), &pairs);
     dense.pairs = pairs;
     note_company(dense);
-    components::find(dense);
+    components::find(dense, &forces);
     dense.epoch = dense.epoch.wrapping_add(1);
     dense.listed_since = time;
     dense.is_list_stale = false;
@@ -73,7 +73,7 @@ fn dynamic_pairs(model: &Model, members: &[Member]) -> Vec<Listed> {
         // Members are in the order of their bodies, and so is a pair.
         let slots = [one.min(other), one.max(other)];
         let [a, b] = slots.map(|slot| members[slot as usize].body);
-        pairs.push(Listed { pair: Pair::of(a, BodyId::of_dynamic(b)), slots, force: 0.0 });
+        pairs.push(Listed { pair: Pair::of(a, BodyId::of_dynamic(b)), slots });
     });
     pairs
 }
@@ -105,7 +105,7 @@ fn near_pairs(model: &Model, state: &State, dense: &Dense, pairs: &mut Vec<Liste
                 None | Some(Role::Frozen(_)) => {
                     if distance(model, state, member.listed_at, other) <= reach {
                         let pair = Pair::of(member.body, other);
-                        pairs.push(Listed { pair, slots: [slot, FIXED], force: 0.0 });
+                        pairs.push(Listed { pair, slots: [slot, FIXED] });
                     }
                 }
             }
@@ -120,23 +120,21 @@ fn distance(model: &Model, state: &State, at: DVec3, other: BodyId) -> f64 {
     model.body(other).shape.convex().nearest(place, at).distance
 }
 
-/// Takes over the forces of pairs that were listed before; both lists are in order.
-fn carry_forces(old: &[Listed], new: &mut [Listed]) {
-    let mut old = old.iter().peekable();
-    for listed in new {
-        while old.next_if(|before| before.pair < listed.pair).is_some() {}
-        if let Some(before) = old.next_if(|before| before.pair == listed.pair) {
-            listed.force = before.force;
-        }
+/// The forces of the last step in the order of the list, N.
+fn forces(dense: &Dense) -> Vec<f64> {
+    let mut forces = vec![0.0; dense.pairs.len()];
+    for near in dense.listed() {
+        forces[near.listed as usize] = near.force;
     }
+    forces
 }
 
-/// The same for their friction.
-fn carried_rubs(old: &[Listed], rubs: &[DVec3], new: &[Listed]) -> Vec<DVec3> {
-    let mut old = old.iter().zip(rubs).peekable();
+/// What is known of pairs that were listed before, for the new list; both lists are in order.
+fn carried<T: Copy + Default>(old: &[Listed], known: &[T], new: &[Listed]) -> Vec<T> {
+    let mut old = old.iter().zip(known).peekable();
     let of = |listed: &Listed| {
         while old.next_if(|(before, _)| before.pair < listed.pair).is_some() {}
-        old.next_if(|(before, _)| before.pair == listed.pair).map_or(DVec3::ZERO, |(_, rub)| *rub)
+        old.next_if(|(before, _)| before.pair == listed.pair).map_or(T::default(), |(_, known)| *known)
     };
     new.iter().map(of).collect()
 }

@@ -8,9 +8,9 @@
 //!
 //! `data` is what is stored, `stepped` what a step works on; `activity` decides who enters, `membership` takes them in;
 //! `list` keeps who is near whom, found by `cells`, and `components` who goes together; `contact` makes the bounds of a
-//! step, and `solve` has them solved: in `converge` by `sweep`, with friction by `rub`, and where few resist by `block`;
-//! `group_step` does all that for the bodies that are due, and `rest` finds out who lies still or has left. `view` is
-//! what can be seen of it.
+//! step, and `solve` has them solved: in `converge` by `sweep`s over `rows`, with friction by `rub`, and where few resist
+//! by `block`; `group_step` does all that for the bodies that are due, and `rest` finds out who lies still or has left.
+//! `view` is what can be seen of it.
 
 mod activity;
 mod block;
@@ -24,6 +24,9 @@ mod group_step;
 mod list;
 mod membership;
 mod rest;
+mod rows;
+#[cfg(target_arch = "x86_64")]
+mod rows_avx2;
 mod rub;
 mod solve;
 mod start;

@@ -33,12 +33,15 @@ pub(super) fn find_contacts(model: &Model, state: &State, component: &mut Compon
         if !finder.can_move(near) {
             continue;
         }
-        let contact = finder.contact(place, near);
+        let contact = finder.unbound(place, near);
         if finder.is_lazy(&contact) {
             waiting.push(place);
         } else {
             contacts.push(contact);
         }
+    }
+    for contact in contacts {
+        finder.bind(contact, near[contact.near as usize].pair);
     }
 }
 

@@ -79,7 +79,7 @@ pub(super) struct Near {
     /// Places in the component; `b` is [`FIXED`] for one that does not move.
     pub a: u32,
     pub b: u32,
-    /// Force between them in the last step, N: that of the list.
+    /// Force between them in the last step, N.
     pub force: f64,
 }
 

@@ -2,43 +2,34 @@
 
 use glam::DVec3;
 
+use super::rows::{Row, Rows, Swept, moved};
+#[cfg(target_arch = "x86_64")]
+use super::rows_avx2;
 use super::rub::Rubbing;
 use super::stepped::{Contact, Moving, Step, Stepped, velocity};
 use super::tolerance::{BUDGET, CREEPING, FINEST, GIVING, SHARE_OF_DIRECTION, SLOW};
 
-/// A contact as the sweeps read it: one cache line.
-#[derive(Clone, Copy, Debug)]
-#[repr(align(64))]
-pub(super) struct Row {
-    /// And 0.
-    pub normal: [f64; 4],
-    pub bound: f64,
-    pub mass: f64,
-    /// Their product, N·s.
-    target: f64,
-    /// Places of its bodies.
-    pub ends: [u32; 2],
-}
-
 /// The rows of a component with the velocities that they act on. It is kept from step to step for its memory.
 #[derive(Clone, Debug, Default)]
 pub(super) struct System {
-    pub rows: Vec<Row>,
-    /// The impulses of the rows, apart, since rows are only read, N·s.
+    pub rows: Rows,
+    /// The bound of each row on its rate, m/s.
+    pub bounds: Vec<f64>,
+    /// The impulses of the rows and of the lanes after them, N·s.
     pub impulses: Vec<f64>,
-    /// What the last sweep changed of each impulse, N·s.
+    /// What the last sweep changed of each of these, N·s.
     pub changes: Vec<f64>,
     /// Change of an impulse in units of what is tolerated, 1/(N·s), and 1/m_a + 1/m_b, 1/kg, of each row.
     scales: Vec<f64>,
     inverse_masses: Vec<f64>,
-    /// Where the conjugate gradient goes on, N·s, and what that is to the velocities, m/s.
+    /// Where the conjugate gradient goes on, N·s, as many as impulses, and what that is to the velocities, m/s.
     directions: Vec<f64>,
     headings: Vec<Moving>,
     /// Σ change²/mass of the last sweep; 0 before the first.
     norm: f64,
     /// How that compares to the sweep before.
     share: f64,
-    /// In the middle of the step; and before the last sweep.
+    /// In the middle of the step, with one that does not move after them; and before the last sweep.
     pub moving: Vec<Moving>,
     before: Vec<Moving>,
 }
@@ -57,27 +48,34 @@ pub(super) struct Judgement {
 impl System {
     /// Bodies as the applied forces alone move them, without rows.
     pub fn begin(&mut self, bodies: &[Stepped], h: f64) {
-        self.rows.clear();
+        self.rows.begin(bodies.len());
+        self.bounds.clear();
         self.impulses.clear();
         self.scales.clear();
         self.inverse_masses.clear();
         self.moving.clear();
         self.moving.extend(bodies.iter().map(|body| free(body, h)));
+        self.moving.push(Moving::default());
         self.headings.resize(self.moving.len(), Moving::default());
     }
 
     /// Adds contacts, each as a row with the scale of its changes, and with the impulses that they begin with.
     pub fn add(&mut self, contacts: &[Contact], scale: impl Fn(&Contact) -> f64) {
-        self.rows.extend(contacts.iter().map(row));
-        self.impulses.extend(contacts.iter().map(|contact| contact.impulse));
-        self.scales.extend(contacts.iter().map(scale));
-        self.inverse_masses.extend(contacts.iter().map(|contact| contact.inverse_mass));
-        for contact in contacts.iter().filter(|contact| contact.impulse > 0.0) {
-            let [x, y, z] = contact.normal.to_array();
-            push(&mut self.moving, [contact.a, contact.b], [x, y, z, 0.0], contact.impulse);
+        self.impulses.truncate(self.rows.len());
+        for contact in contacts {
+            self.rows.add(contact);
+            self.bounds.push(contact.bound);
+            self.impulses.push(contact.impulse);
+            self.scales.push(scale(contact));
+            self.inverse_masses.push(contact.inverse_mass);
+            if contact.impulse > 0.0 {
+                let [x, y, z] = contact.normal.to_array();
+                push(&mut self.moving, [contact.a, contact.b], [x, y, z, 0.0], contact.impulse);
+            }
         }
-        self.changes.resize(self.rows.len(), 0.0);
-        self.directions.resize(self.rows.len(), 0.0);
+        for of_lanes in [&mut self.impulses, &mut self.changes, &mut self.directions] {
+            of_lanes.resize(self.rows.lanes(), 0.0);
+        }
         self.begin_anew();
     }
 
@@ -89,13 +87,9 @@ impl System {
     /// One sweep; gives the largest change in units of what is tolerated.
     pub fn sweep(&mut self, is_backward: bool, rubbing: &mut Rubbing) -> f64 {
         self.before.clone_from(&self.moving);
-        let rows = self.rows.iter().zip(self.impulses.iter_mut().zip(&mut self.changes));
-        if is_backward {
-            sweep(rows.rev(), &mut self.moving);
-        } else {
-            sweep(rows, &mut self.moving);
-        }
-        let (worst, norm) = measure(&self.changes, &self.scales, &self.inverse_masses);
+        let Self { impulses, changes, moving, .. } = self;
+        sweep(&self.rows, is_backward, Swept { impulses, changes, moving });
+        let (worst, norm) = measure(&self.changes[..self.rows.len()], &self.scales, &self.inverse_masses);
         // Where the change became larger, the conjugate gradient begins anew.
         (self.share, self.norm) = (norm / self.norm, norm);
         if rubbing.is_empty() {
@@ -121,29 +115,32 @@ impl System {
             *heading = step + (*moving - before);
             *moving += step;
         }
-        // Signs are gathered as bits, which the processor does for several at once.
-        let mut signs = 0;
         let steps = self.directions.iter_mut().zip(&self.changes);
         for (impulse, (direction, change)) in self.impulses.iter_mut().zip(steps) {
             let step = share * *direction;
             *direction = step + change;
             *impulse += step;
-            signs |= impulse.to_bits();
         }
-        if f64::from_bits(signs).is_sign_negative() {
-            self.push_back();
-        }
+        self.push_back();
     }
 
     /// Takes back what would make impulses negative, and goes on there no further.
     fn push_back(&mut self) {
-        let steps = self.impulses.iter_mut().zip(&mut self.directions);
-        for (row, (impulse, direction)) in self.rows.iter().zip(steps) {
-            if *impulse < 0.0 {
-                let inverse_masses = inverse_masses(&self.moving, row.ends);
-                push_by(&mut self.headings, row, inverse_masses, -*direction);
-                push_by(&mut self.moving, row, inverse_masses, -*impulse);
-                (*impulse, *direction) = (0.0, 0.0);
+        let steps =
+            self.impulses.as_chunks_mut::<4>().0.iter_mut().zip(self.directions.as_chunks_mut::<4>().0);
+        for (first, (impulses, directions)) in (0..).step_by(4).zip(steps) {
+            // Few rows are.
+            if !is_any_negative(impulses) {
+                continue;
+            }
+            for (nth, (impulse, direction)) in impulses.iter_mut().zip(directions).enumerate() {
+                if *impulse < 0.0 {
+                    let row = self.rows.row(first + nth);
+                    let inverse_masses = inverse_masses(&self.moving, row.ends);
+                    push_by(&mut self.headings, &row, inverse_masses, -*direction);
+                    push_by(&mut self.moving, &row, inverse_masses, -*impulse);
+                    (*impulse, *direction) = (0.0, 0.0);
+                }
             }
         }
     }
@@ -183,6 +180,13 @@ impl System {
     }
 }
 
+/// One sweep over all rows, by fours where the processor can.
+fn sweep(rows: &Rows, is_backward: bool, swept: Swept<'_>) {
+    #[cfg(target_arch = "x86_64")]
+    let Some(swept) = rows_avx2::sweep(rows, is_backward, swept) else { return };
+    rows.sweep_one_by_one(is_backward, swept);
+}
+
 /// Energy that a contact takes by an impulse λ that leaves it with the rate s', −½ λ (s + s'), J.
 fn taken(contact: &Contact, impulse: f64, rate: f64) -> f64 {
     -0.5 * impulse * (contact.rate + rate)
@@ -197,32 +201,6 @@ fn creeps(contact: &Contact, deeper: f64, radius: f64) -> bool {
 fn free(body: &Stepped, h: f64) -> Moving {
     let u = if body.inverse_mass > 0.0 { body.u + h * body.a } else { body.u };
     [u.x, u.y, u.z, body.inverse_mass]
-}
-
-fn row(contact: &Contact) -> Row {
-    let [x, y, z] = contact.normal.to_array();
-    let (bound, mass) = (contact.bound, 1.0 / contact.inverse_mass);
-    Row { normal: [x, y, z, 0.0], bound, mass, target: bound * mass, ends: [contact.a, contact.b] }
-}
-
-/// One sweep over rows with their impulses and changes. What takes its time is how long each row waits for what it
-/// calculates: all that can be is multiplied before.
-#[inline(always)]
-fn sweep<'a>(rows: impl Iterator<Item = (&'a Row, (&'a mut f64, &'a mut f64))>, moving: &mut [Moving]) {
-    for (row, (impulse, change)) in rows {
-        let [a, b] = row.ends;
-        let one = moving[a as usize];
-        let other = moving.get(b as usize).copied().unwrap_or_default();
-        let wanted = row.target - dot(times(row.normal, row.mass), minus(other, one));
-        // Quicker than `max`, which asks for NaN.
-        let by = if wanted > -*impulse { wanted } else { -*impulse };
-        *impulse += by;
-        *change = by;
-        moving[a as usize] = moved(one, row.normal, -by);
-        if let Some(body) = moving.get_mut(b as usize) {
-            *body = moved(other, row.normal, by);
-        }
-    }
 }
 
 /// The largest change in units of what is tolerated, and Σ change²/mass, in four sums that the processor adds at once.
@@ -248,6 +226,13 @@ fn measure(changes: &[f64], scales: &[f64], inverse_masses: &[f64]) -> (f64, f64
     (largest, (norm[0] + norm[1]) + (norm[2] + norm[3]))
 }
 
+/// Gathers the signs as bits, which the processor does for several at once.
+#[inline(always)]
+fn is_any_negative(four: &[f64; 4]) -> bool {
+    let signs = four.iter().fold(0, |signs, number| signs | number.to_bits());
+    f64::from_bits(signs).is_sign_negative()
+}
+
 #[inline(always)]
 pub(super) fn push(moving: &mut [Moving], [a, b]: [u32; 2], normal: [f64; 4], impulse: f64) {
     let one = &mut moving[a as usize];
@@ -270,28 +255,6 @@ fn push_by(velocities: &mut [Moving], row: &Row, inverse_masses: [f64; 2], impul
             *velocity = std::array::from_fn(|axis| velocity[axis] + change * row.normal[axis]);
         }
     }
-}
-
-/// A body after an impulse.
-#[inline(always)]
-fn moved(body: Moving, normal: [f64; 4], impulse: f64) -> Moving {
-    let per_impulse = times(normal, body[3]);
-    std::array::from_fn(|axis| body[axis] + impulse * per_impulse[axis])
-}
-
-#[inline(always)]
-fn times(vector: [f64; 4], factor: f64) -> [f64; 4] {
-    vector.map(|component| component * factor)
-}
-
-#[inline(always)]
-fn minus(one: Moving, other: Moving) -> [f64; 4] {
-    std::array::from_fn(|axis| one[axis] - other[axis])
-}
-
-#[inline(always)]
-fn dot(one: [f64; 4], other: [f64; 4]) -> f64 {
-    (one[0] * other[0] + one[2] * other[2]) + (one[1] * other[1] + one[3] * other[3])
 }
 
 /// n·(u'_b − u'_a), m/s.

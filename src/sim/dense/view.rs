@@ -19,10 +19,9 @@ pub(in crate::sim) fn stepped_bodies(model: &Model, state: &State) -> Option<Ste
 pub(in crate::sim) fn contact_forces(model: &Model, state: &State, most: usize) -> Vec<ContactForce> {
     let Some(dense) = &state.dense else { return Vec::new() };
     let is_stepped = |pair: Pair| pair.dynamic().any(|body| dense.is_member(body));
-    let listed = dense.pairs.iter().filter(|listed| listed.force > 0.0 && is_stepped(listed.pair));
+    let pressed = dense.listed().filter(|near| near.force > 0.0 && is_stepped(near.pair));
     let held = dense.held.iter().filter(|held| is_held(dense, held.pair));
-    let mut forces: Vec<Held> =
-        listed.map(|listed| Held { pair: listed.pair, force: listed.force }).collect();
+    let mut forces: Vec<Held> = pressed.map(|near| Held { pair: near.pair, force: near.force }).collect();
     forces.extend(held);
     if forces.len() > most {
         forces.select_nth_unstable_by(most, |one, other| {
@@ -44,8 +43,9 @@ fn shown(model: &Model, state: &State, Held { pair, force }: Held) -> ContactFor
 pub(super) fn keep_forces(dense: &mut Dense, number: u32) {
     let roles = &dense.roles;
     let is_of_it = |pair: Pair| pair.dynamic().any(|body| roles[body as usize] == Role::Frozen(number));
-    let kept = dense.pairs.iter().filter(|listed| listed.force > 0.0 && is_of_it(listed.pair));
-    dense.held.extend(kept.map(|listed| Held { pair: listed.pair, force: listed.force }));
+    let kept = dense.listed().filter(|near| near.force > 0.0 && is_of_it(near.pair));
+    let kept: Vec<Held> = kept.map(|near| Held { pair: near.pair, force: near.force }).collect();
+    dense.held.extend(kept);
 }
 
 /// Forgets the forces of bodies that lie still no longer.
