@@ -5,8 +5,8 @@ use std::path::Path;
 
 use super::CliError;
 use crate::record::RecordingFile;
-use crate::scene::{Diagnostic, Document, Severity, shown_path};
-use crate::sim::{Method, Simulation};
+use crate::scene::{Diagnostic, Document, FileStamp, Severity, shown_path};
+use crate::sim::{CompileError, Method, Simulation};
 
 /// A scene file is at most 256 MiB; one byte more is enough for the reader to say so.
 const STDIN_LIMIT: u64 = (256 << 20) + 1;
@@ -18,16 +18,32 @@ pub struct Examined {
     pub problems: Vec<Diagnostic>,
 }
 
+/// The simulation that a document starts (unless it has errors), and all problems in order of place.
+pub(super) struct Begun {
+    pub simulation: Option<Simulation>,
+    pub problems: Vec<Diagnostic>,
+}
+
 impl Examined {
     /// How many problems are errors.
     pub fn error_count(&self) -> usize {
-        self.problems.iter().filter(|p| p.is_error()).count()
+        error_count(&self.problems)
     }
 
     /// The problems as `file:line:column: severity: message (path); hint`, one line each.
     pub fn lines(&self, file: &str) -> Vec<String> {
-        self.problems.iter().map(|problem| problem_line(file, problem)).collect()
+        lines(file, &self.problems)
     }
+}
+
+/// How many problems are errors.
+pub(super) fn error_count(problems: &[Diagnostic]) -> usize {
+    problems.iter().filter(|problem| problem.is_error()).count()
+}
+
+/// The problems as `file:line:column: severity: message (path); hint`, one line each.
+pub(super) fn lines(file: &str, problems: &[Diagnostic]) -> Vec<String> {
+    problems.iter().map(|problem| problem_line(file, problem)).collect()
 }
 
 /// Reads a file, or standard input for `-`, and examines it. The simulation steps by `method`.
@@ -46,7 +62,7 @@ pub(super) fn read(path: &Path) -> Result<Document, CliError> {
         .take(STDIN_LIMIT)
         .read_to_end(&mut bytes)
         .map_err(|error| CliError::Usage(format!("cannot read standard input: {error}")))?;
-    Ok(Document::from_bytes(&bytes))
+    Ok(Document::from_vec(bytes))
 }
 
 /// What to call a scene file in messages.
@@ -65,15 +81,48 @@ pub fn examine(document: Document, method: Method) -> Examined {
     if !document.has_errors()
         && let Some(scene) = document.scene()
     {
-        let found = match Simulation::with_method(scene, method) {
-            Ok(compiled) => simulation.insert(compiled).start_warnings().to_vec(),
-            Err(error) => error.problems,
-        };
+        let found = found(Simulation::with_method(scene, method), &mut simulation);
         problems.extend(found.into_iter().map(|problem| placed(&document, problem)));
-        // What has no place sums up the others.
-        problems.sort_by_key(|problem| (problem.position.is_none(), problem.position));
+        sort(&mut problems);
     }
     Examined { document, simulation, problems }
+}
+
+/// Examines a document that nobody needs later. The text and the elements of a large scene take as much memory as its
+/// simulation: they are given back before it begins. Where it finds something wrong the file is read again, for the places,
+/// unless it is another by now. `before` is what was there when the document was read.
+pub(super) fn begin(document: Document, path: &Path, before: &FileStamp, method: Method) -> Begun {
+    // A stream cannot be read again.
+    let is_file = path.as_os_str() != "-" && path.is_file();
+    let Some(scene) = document.scene_shared().filter(|_| is_file && !document.has_errors()) else {
+        let Examined { simulation, problems, .. } = examine(document, method);
+        return Begun { simulation, problems };
+    };
+    let mut problems = document.diagnostics().to_vec();
+    drop(document);
+    let mut simulation = None;
+    let found = found(Simulation::of_owned(scene, method), &mut simulation);
+    let again = found.iter().any(|problem| problem.key.is_some()).then(|| Document::open(path));
+    let again = again.filter(|_| FileStamp::of(path) == *before);
+    problems.extend(found.into_iter().map(|problem| match &again {
+        Some(document) => placed(document, problem),
+        None => problem,
+    }));
+    sort(&mut problems);
+    Begun { simulation, problems }
+}
+
+/// What is wrong with a simulation that was begun.
+fn found(begun: Result<Simulation, CompileError>, simulation: &mut Option<Simulation>) -> Vec<Diagnostic> {
+    match begun {
+        Ok(begun) => simulation.insert(begun).start_warnings().to_vec(),
+        Err(error) => error.problems,
+    }
+}
+
+/// What has no place sums up the others.
+fn sort(problems: &mut [Diagnostic]) {
+    problems.sort_by_key(|problem| (problem.position.is_none(), problem.position));
 }
 
 /// Whether somebody gave a recording where a scene is meant.

@@ -69,7 +69,8 @@ impl RowArgs {
         let mut labels = BTreeSet::new();
         for name in self.bodies.iter().map(|name| name.trim()) {
             let named = |body: &&Body| body.label == name || body.name.as_deref() == Some(name);
-            let found: Vec<_> = scene.bodies.iter().filter(named).map(|body| body.label.clone()).collect();
+            let found: Vec<_> =
+                scene.bodies.iter().filter(named).map(|body| body.label.to_string()).collect();
             if found.is_empty() {
                 return Err(CliError::Usage(format!("--bodies: no body has the UserID or name {name}")));
             }
@@ -163,7 +164,7 @@ impl RowArgs {
 impl Wanted {
     /// Takes over what bodies are called.
     pub fn name<'b>(&mut self, bodies: impl IntoIterator<Item = &'b Body>) {
-        let named = bodies.into_iter().filter_map(|body| Some((body.label.clone(), body.name.clone()?)));
+        let named = bodies.into_iter().filter_map(|body| Some((body.label.to_string(), body.name.clone()?)));
         self.names.extend(named);
     }
 

@@ -1,5 +1,6 @@
 //! New bodies and forces of one part: with names, a group and ids of their own.
 
+use compact_str::CompactString;
 use glam::DVec3;
 
 use super::plan::{Given, Plan};
@@ -100,7 +101,7 @@ impl Builder {
         let body = Body {
             key: NodeKey::default(),
             id: self.next_id,
-            label: String::new(),
+            label: CompactString::default(),
             name,
             group: self.group.clone(),
             ..body

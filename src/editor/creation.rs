@@ -1,5 +1,6 @@
 //! New bodies and forces: sensible sizes for the map at hand, in a place that is free.
 
+use compact_str::CompactString;
 use glam::DVec3;
 
 use super::{Addition, Outcome, Session};
@@ -72,7 +73,7 @@ fn blank(scene: &Scene, shape: Shape) -> Body {
     let id = scene.bodies.iter().map(|body| body.id).max().unwrap_or(0).saturating_add(1);
     Body {
         key: NodeKey::default(),
-        label: String::new(),
+        label: CompactString::default(),
         ..Body::new(id, DVec3::ZERO, Motion::Static, shape)
     }
 }

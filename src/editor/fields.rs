@@ -133,7 +133,7 @@ impl Field<Force, ForceChange> {
     pub fn edit(&self, scene: &Scene, keys: &[NodeKey], axis: usize, typed: &Typed) -> Result<Edit, String> {
         let all: BTreeMap<NodeKey, &Force> = scene.forces.iter().map(|force| (force.key, force)).collect();
         let chosen = keys.iter().filter_map(|key| all.get(key).copied());
-        let changes = self.changes(chosen, axis, typed, |force| force.label.clone())?;
+        let changes = self.changes(chosen, axis, typed, |force| force.label.to_string())?;
         Ok(Edit::All(
             changes.into_iter().map(|(force, change)| Edit::Force { key: force.key, change }).collect(),
         ))

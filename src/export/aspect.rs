@@ -118,10 +118,10 @@ pub(super) const ASPECTS: &[AspectInfo] = &[
         forces(s, |force| matches!(force.kind, ForceKind::Drag { .. }))
     }),
     row(Aspect::UserIds, "UserID of a body", "UserIDs of bodies", |s| {
-        s.scene.bodies.iter().map(|body| body.label.clone()).collect()
+        s.scene.bodies.iter().map(|body| body.label.to_string()).collect()
     }),
     row(Aspect::ForceIds, "UserID of a force", "UserIDs of forces", |s| {
-        s.scene.forces.iter().map(|force| force.label.clone()).collect()
+        s.scene.forces.iter().map(|force| force.label.to_string()).collect()
     }),
     row(Aspect::BodyNames, "name of a body", "names of bodies", |s| bodies(s, |body| body.name.is_some())),
     row(Aspect::Groups, "body in a group", "bodies in groups", |s| bodies(s, |body| body.group.is_some())),
@@ -166,5 +166,5 @@ fn bodies(source: &Source<'_>, wanted: impl Fn(&Body) -> bool) -> Vec<String> {
 
 fn forces(source: &Source<'_>, wanted: impl Fn(&Force) -> bool) -> Vec<String> {
     let found = source.scene.forces.iter().filter(|force| wanted(force));
-    found.map(|force| force.name.clone().unwrap_or_else(|| force.label.clone())).collect()
+    found.map(|force| force.name.clone().unwrap_or_else(|| force.label.to_string())).collect()
 }

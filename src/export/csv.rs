@@ -22,7 +22,7 @@ pub(super) const FORMAT: Format = Format {
 type Cell = fn(&Body) -> String;
 
 const COLUMNS: &[(&str, Cell)] = &[
-    ("label", |body| body.label.clone()),
+    ("label", |body| body.label.to_string()),
     ("user_id", |body| body.id.to_string()),
     ("name", |body| text(body.name.as_deref())),
     ("group", |body| text(body.group.as_deref())),

@@ -150,7 +150,7 @@ fn object(row: &mut egui_extras::TableRow<'_, '_>, context: &AppContext<'_>, pro
         let body = shown.body(key).map(|body| &body.label);
         body.or_else(|| shown.force(key).map(|force| &force.label))
     });
-    cell(row, RichText::new(name), label.map_or("", String::as_str));
+    cell(row, RichText::new(name), label.map_or("", |label| label));
 }
 
 fn fix_button(ui: &mut Ui, context: &AppContext<'_>, problem: &Problem) {

@@ -1,5 +1,6 @@
 //! From pieces to a scene: y up, boxes as planes, planes with an end, a map that holds it all.
 
+use compact_str::ToCompactString as _;
 use glam::{DMat3, DVec3};
 
 use super::log::Log;
@@ -208,7 +209,7 @@ fn number(bodies: &mut [Body], pieces: &[Piece]) {
             next = next.saturating_add(1);
         }
         body.key = NodeKey(nth as u64 + 1);
-        body.label = body.id.to_string();
+        body.label = body.id.to_compact_string();
         // A name that only repeats the number is none.
         body.name.take_if(|name| *name == body.label);
     }

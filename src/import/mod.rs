@@ -75,7 +75,7 @@ pub fn import(document: &Document, leave_out: bool) -> Imported {
     };
     let world = (source.read)(root, &mut log);
     let (scene, origins) = assemble::scene(world, &mut log);
-    let labels = scene.bodies.iter().map(|body| body.label.clone());
+    let labels = scene.bodies.iter().map(|body| body.label.to_string());
     let origins = labels.zip(origins).collect();
     let (report, mut problems) = log.into_parts();
     let document = match Document::of_scene(&scene, crate::scene::NumberStyle::Point) {

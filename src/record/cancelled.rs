@@ -160,7 +160,7 @@ impl Search {
             let is_kept = now.is_some_and(|now| (now - impact.time).abs() <= slack);
             (!is_kept).then(|| CancelledImpact {
                 keys: [impact.a, impact.b].map(|body| self.simulation.key(body)),
-                labels: [impact.a, impact.b].map(|body| self.simulation.shared_label(body)),
+                labels: [impact.a, impact.b].map(|body| Arc::from(self.simulation.label(body))),
                 time: impact.time,
                 now,
             })

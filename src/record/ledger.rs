@@ -53,7 +53,7 @@ pub(super) struct Names {
 
 impl Names {
     pub(super) fn of(simulation: &Simulation) -> Self {
-        let name = |body| (simulation.key(body), simulation.shared_label(body));
+        let name = |body| (simulation.key(body), Arc::from(simulation.label(body)));
         let (dynamic, statics) = simulation.body_numbers();
         Self {
             dynamic: dynamic.map(BodyRef::Dynamic).map(name).collect(),

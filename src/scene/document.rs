@@ -1,5 +1,6 @@
 //! The lossless document: a scene file in memory, its meaning and its bytes.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::fs::File;
 use std::io::{self, Read};
@@ -70,32 +71,39 @@ impl Document {
 
     /// Reads a file's bytes, whatever they are. Never panics; every problem becomes a [`Diagnostic`].
     pub fn from_bytes(bytes: &[u8]) -> Self {
-        Self::from_bytes_with_keys(bytes, Arc::new(Keys::starting_at(1)))
+        Self::from_bytes_with_keys(bytes.into(), Arc::new(Keys::starting_at(1)))
+    }
+
+    /// As [`Self::from_bytes`], without a copy of bytes that are the text already, in UTF-8.
+    pub fn from_vec(mut bytes: Vec<u8>) -> Self {
+        bytes.shrink_to_fit();
+        Self::from_bytes_with_keys(bytes.into(), Arc::new(Keys::starting_at(1)))
     }
 
     /// As [`Self::from_bytes`], with keys that another document has not used.
-    pub(super) fn from_bytes_with_keys(bytes: &[u8], keys: Arc<Keys>) -> Self {
+    pub(super) fn from_bytes_with_keys(mut bytes: Cow<'_, [u8]>, keys: Arc<Keys>) -> Self {
         if bytes.len() as u64 > MAX_FILE_BYTES {
             let message = format!("the file is larger than {} MiB", MAX_FILE_BYTES / (1024 * 1024));
             return Self::broken(&[], unreadable(message, "divide the scene"));
         }
-        let decoded = match encoding::decode(bytes) {
+        let decoded = match encoding::decode(&mut bytes) {
             Ok(decoded) => decoded,
             Err(fault) => {
                 let position = Some(position_in(&fault.before, fault.before.len()));
                 return Self::broken(
-                    bytes,
+                    &bytes,
                     Diagnostic { position, ..unreadable(fault.message, &fault.hint) },
                 );
             }
         };
+        drop(bytes);
         let source = Source::new(decoded.text, decoded.encoding, decoded.contradiction, keys);
         match parse::document(&source.text, &source.keys) {
             Ok(tree) => Self::of_tree(Arc::new(source), tree),
             Err(fault) => {
                 let (position, path) = (Some(source.position(fault.at)), fault.path);
                 let diagnostic = Diagnostic { position, path, ..unreadable(fault.message, &fault.hint) };
-                Self::broken(bytes, diagnostic)
+                Self::broken(&encoding::encode(&source.text, source.encoding), diagnostic)
             }
         }
     }
@@ -103,7 +111,7 @@ impl Document {
     /// Reads a file. A file that cannot be read gives a diagnostic without a position.
     pub fn open(path: &Path) -> Self {
         match read_file(path) {
-            Ok(bytes) => Self::from_bytes(&bytes),
+            Ok(bytes) => Self::from_vec(bytes),
             Err(err) => Self::broken(&[], unreadable(format!("the file cannot be read: {err}"), "")),
         }
     }
@@ -264,8 +272,12 @@ impl Document {
 
 /// A file's bytes, one more than the limit at most.
 pub(super) fn read_file(path: &Path) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    File::open(path)?.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes)?;
+    let file = File::open(path)?;
+    let most = MAX_FILE_BYTES + 1;
+    // One more than there is to read, so that the end is seen without more room. Streams say that they are empty.
+    let expected = file.metadata().map_or(0, |metadata| metadata.len() + 1);
+    let mut bytes = Vec::with_capacity(expected.min(most) as usize);
+    file.take(most).read_to_end(&mut bytes)?;
     Ok(bytes)
 }
 

@@ -1,6 +1,7 @@
 //! Bytes to text and back, in the encoding a file came with: UTF-8, UTF-16, or what its declaration names.
 
 use std::borrow::Cow;
+use std::str::Utf8Error;
 
 use super::tree::tag;
 
@@ -49,8 +50,9 @@ const UTF8_BOM: &[u8] = b"\xEF\xBB\xBF";
 const UTF16_LE_BOM: &[u8] = b"\xFF\xFE";
 const UTF16_BE_BOM: &[u8] = b"\xFE\xFF";
 
-/// Decodes a file. What it accepts, [`encode`] turns back into the same bytes.
-pub(super) fn decode(bytes: &[u8]) -> Result<Decoded, DecodeFault> {
+/// Decodes a file. What it accepts, [`encode`] turns back into the same bytes. Owned bytes that are the text are taken for
+/// it, and nothing is left of them.
+pub(super) fn decode(bytes: &mut Cow<'_, [u8]>) -> Result<Decoded, DecodeFault> {
     if bytes.starts_with(b"\xFF\xFE\0\0") || bytes.starts_with(b"\0\0\xFE\xFF") {
         return Err(DecodeFault::at_start("the file is in UTF-32".into(), "save it as UTF-8"));
     }
@@ -64,7 +66,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded, DecodeFault> {
     };
     let encoding = Encoding { bom: skip > 0, form };
     let text = match form {
-        Form::Utf8 => decode_utf8(&bytes[skip..])?,
+        Form::Utf8 => decode_utf8(bytes, skip)?,
         Form::Utf16Le => decode_utf16(&bytes[skip..], u16::from_le_bytes)?,
         Form::Utf16Be => decode_utf16(&bytes[skip..], u16::from_be_bytes)?,
         Form::Legacy(legacy) => decode_legacy(bytes, legacy)?,
@@ -146,18 +148,30 @@ fn agrees(label: &str, form: Form) -> bool {
     }
 }
 
-fn decode_utf8(bytes: &[u8]) -> Result<String, DecodeFault> {
-    str::from_utf8(bytes).map(str::to_owned).map_err(|err| {
-        let valid = err.valid_up_to();
-        let bad = bytes.get(valid).copied().unwrap_or(0);
-        DecodeFault {
-            before: String::from_utf8_lossy(&bytes[..valid]).into_owned(),
-            message: format!("the byte 0x{bad:02X} is not valid UTF-8"),
-            hint: "save the file as UTF-8, or name its encoding in the first line: \
+fn decode_utf8(bytes: &mut Cow<'_, [u8]>, skip: usize) -> Result<String, DecodeFault> {
+    if skip == 0
+        && let Cow::Owned(owned) = bytes
+    {
+        return String::from_utf8(std::mem::take(owned)).map_err(|err| {
+            let fault = not_utf8(err.as_bytes(), err.utf8_error());
+            *owned = err.into_bytes();
+            fault
+        });
+    }
+    let bytes = &bytes[skip..];
+    str::from_utf8(bytes).map(str::to_owned).map_err(|err| not_utf8(bytes, err))
+}
+
+fn not_utf8(bytes: &[u8], err: Utf8Error) -> DecodeFault {
+    let valid = err.valid_up_to();
+    let bad = bytes.get(valid).copied().unwrap_or(0);
+    DecodeFault {
+        before: String::from_utf8_lossy(&bytes[..valid]).into_owned(),
+        message: format!("the byte 0x{bad:02X} is not valid UTF-8"),
+        hint: "save the file as UTF-8, or name its encoding in the first line: \
                    <?xml version=\"1.0\" encoding=\"windows-1250\"?>"
-                .into(),
-        }
-    })
+            .into(),
+    }
 }
 
 fn decode_utf16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Result<String, DecodeFault> {

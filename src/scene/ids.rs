@@ -1,5 +1,6 @@
 //! UserIDs: labels that files repeat or leave out, made into labels that are unique.
 
+use compact_str::{CompactString, ToCompactString as _, format_compact};
 use rustc_hash::{FxBuildHasher, FxHashMap, FxHashSet};
 
 /// Largest id that is given: the predecessor's tools read 32 bits.
@@ -15,9 +16,9 @@ pub(super) struct Label {
 
 impl Label {
     /// `id`, or `id#k` for the k-th of that id.
-    pub fn text(self) -> String {
+    pub fn text(self) -> CompactString {
         let Self { id, repeat } = self;
-        if repeat == 1 { id.to_string() } else { format!("{id}#{repeat}") }
+        if repeat == 1 { id.to_compact_string() } else { format_compact!("{id}#{repeat}") }
     }
 }
 
@@ -54,22 +55,25 @@ impl Ids {
 /// Labels for the elements of a list, in file order.
 #[derive(Debug)]
 pub(super) struct Labels {
-    repeats: FxHashMap<i64, u32>,
+    /// How often each id came; only if they do not all ascend, so that each comes once.
+    repeats: Option<FxHashMap<i64, u32>>,
     /// Only if there are elements without an id.
     ids: Option<Ids>,
 }
 
 impl Labels {
-    pub fn of(ids: impl ExactSizeIterator<Item = Option<i64>> + Clone) -> Self {
-        let repeats = FxHashMap::with_capacity_and_hasher(ids.len(), FxBuildHasher);
-        let ids = ids.clone().any(|id| id.is_none()).then(|| Ids::new(ids.flatten()));
-        Self { repeats, ids }
+    pub fn of(ids: &(impl Iterator<Item = Option<i64>> + Clone)) -> Self {
+        let is_complete = ids.clone().all(|id| id.is_some());
+        let ascends = is_complete && ids.clone().is_sorted_by(|one, next| one < next);
+        let room = || FxHashMap::with_capacity_and_hasher(ids.clone().count(), FxBuildHasher);
+        Self { repeats: (!ascends).then(room), ids: (!is_complete).then(|| Ids::new(ids.clone().flatten())) }
     }
 
     /// The label of the next element, with a given id if it has none.
     pub fn next(&mut self, id: Option<i64>) -> Label {
         let id = id.or_else(|| self.ids.as_mut().map(Ids::fresh)).unwrap_or_default();
-        let repeat = self.repeats.entry(id).or_insert(0);
+        let Some(repeats) = &mut self.repeats else { return Label { id, repeat: 1 } };
+        let repeat = repeats.entry(id).or_insert(0);
         *repeat += 1;
         Label { id, repeat: *repeat }
     }

@@ -1,5 +1,6 @@
 //! Finding elements: by key, and the two lists of bodies and forces.
 
+use compact_str::CompactString;
 use rustc_hash::FxHashMap;
 
 use super::tree::{Child, Children, Kept, View};
@@ -36,7 +37,7 @@ fn descend<'a>(children: &'a Children, source: &'a str, key: NodeKey, chain: &mu
 pub(super) fn label_of(scene: &Scene, key: NodeKey) -> Option<&str> {
     let body = scene.bodies.iter().find(|body| body.key == key).map(|body| &body.label);
     let force = || scene.forces.iter().find(|force| force.key == key).map(|force| &force.label);
-    body.or_else(force).map(String::as_str)
+    body.or_else(force).map(CompactString::as_str)
 }
 
 /// The two lists that hold what a scene consists of.

@@ -27,7 +27,7 @@ impl Document {
 
     /// As [`Self::reopen`], from bytes.
     pub fn reread(&self, bytes: &[u8]) -> Self {
-        let new = Self::from_bytes_with_keys(bytes, self.source.keys.clone());
+        let new = Self::from_bytes_with_keys(bytes.into(), self.source.keys.clone());
         let (Some(before), Some(after), Content::Tree(top)) = (self.scene(), new.scene(), new.content())
         else {
             return new;

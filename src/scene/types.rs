@@ -1,5 +1,6 @@
 //! The typed scene: the meaning of a document, in SI units, right-handed, y up.
 
+use compact_str::{CompactString, ToCompactString as _};
 use glam::{DMat3, DVec3};
 use serde::{Deserialize, Serialize};
 
@@ -31,7 +32,7 @@ pub struct Force {
     /// UserID of the file; forces and bodies are separate name spaces and files repeat IDs.
     pub id: i64,
     /// Unique among forces: `id`, or `id#k` for the k-th (k ≥ 2) force of that id in file order.
-    pub label: String,
+    pub label: CompactString,
     pub name: Option<String>,
     /// The group it is listed in, such as `table` or `table/legs`; cosmetic.
     pub group: Option<String>,
@@ -46,7 +47,7 @@ impl Force {
         Self {
             key: NodeKey(1_000_000 + id.unsigned_abs()),
             id,
-            label: id.to_string(),
+            label: id.to_compact_string(),
             name: None,
             group: None,
             hidden: false,
@@ -106,7 +107,7 @@ pub struct Body {
     /// UserID of the file, which may repeat.
     pub id: i64,
     /// Unique among bodies: `id`, or `id#k` for the k-th (k ≥ 2) body of that id in file order.
-    pub label: String,
+    pub label: CompactString,
     pub name: Option<String>,
     /// The group it is listed in, such as `table` or `table/legs`; cosmetic.
     pub group: Option<String>,
@@ -137,7 +138,7 @@ impl Body {
         Self {
             key: NodeKey(id.unsigned_abs()),
             id,
-            label: id.to_string(),
+            label: id.to_compact_string(),
             name: None,
             group: None,
             color: None,

@@ -1,8 +1,8 @@
 //! Bodies: how they are told apart, and what does not change about them while they move.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
 
+use compact_str::CompactString;
 use glam::{DQuat, DVec3};
 
 use super::event::BodyRef;
@@ -58,24 +58,32 @@ impl BodyId {
     }
 }
 
-/// Who a body is.
+/// Who a body is. Short labels lie in place: small pieces of memory, one for each of many bodies, would keep what lay
+/// between them from being used again.
 #[derive(Clone, Debug)]
 pub(super) struct Identity {
     pub key: NodeKey,
-    pub id: i64,
-    pub label: Arc<str>,
+    pub label: CompactString,
+    /// Where it is not the label.
+    name: Option<Box<str>>,
+}
+
+impl Identity {
+    /// `name` is what a person calls it.
+    pub fn new(key: NodeKey, label: &str, name: &str) -> Self {
+        Self { key, label: label.into(), name: (name != label).then(|| name.into()) }
+    }
+
     /// What a person calls it: its name, else its label.
-    pub name: Arc<str>,
-    /// Order among bodies of the same id.
-    pub order: u32,
+    pub fn name(&self) -> &str {
+        self.name.as_deref().unwrap_or(&self.label)
+    }
 }
 
 /// What does not change about a body. An impact looks at both: each fills one cache line.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub(super) struct Body {
-    /// Apart, since events never look at it.
-    pub identity: Box<Identity>,
     /// The body's place in UserID order: the id, and the order among bodies of the same id.
     id: i64,
     order: u32,
@@ -100,12 +108,11 @@ pub(super) struct Rare {
 }
 
 impl Body {
-    /// `mass` in kg; infinite for a static body.
-    pub fn new(identity: Identity, mass: f64, bounce: f64, shape: Shape, rare: Rare) -> Self {
+    /// `rank` is its place in UserID order; `mass` in kg, infinite for a static body.
+    pub fn new((id, order): (i64, u32), mass: f64, bounce: f64, shape: Shape, rare: Rare) -> Self {
         Self {
-            id: identity.id,
-            order: identity.order,
-            identity: Box::new(identity),
+            id,
+            order,
             mass,
             bounce,
             shape,
@@ -174,6 +181,9 @@ pub(super) struct Origin {
 pub(super) struct Bodies {
     dynamic: Vec<Body>,
     statics: Vec<Body>,
+    /// Who they are: apart, since events never look at it.
+    dynamic_identities: Vec<Identity>,
+    static_identities: Vec<Identity>,
     /// Radii of the dynamic bodies, m: close together, for predictions read many.
     radii: Vec<f64>,
     /// The least and the largest of those that are there, m.
@@ -187,12 +197,23 @@ pub(super) struct Bodies {
 }
 
 impl Bodies {
+    /// None yet, with room for so many dynamic ones.
+    pub fn with_room(dynamic: usize) -> Self {
+        Self {
+            dynamic: Vec::with_capacity(dynamic),
+            dynamic_identities: Vec::with_capacity(dynamic),
+            radii: Vec::with_capacity(dynamic),
+            ..Self::default()
+        }
+    }
+
     /// Adds a body; a static one at this place, m.
-    pub fn push(&mut self, body: Body, position: DVec3) -> BodyId {
-        let key = body.identity.key;
+    pub fn push(&mut self, identity: Identity, body: Body, position: DVec3) -> BodyId {
+        let key = identity.key;
         *self.of_id.entry(body.id).or_default() += 1;
         let id = if body.is_static() {
             self.statics.push(body);
+            self.static_identities.push(identity);
             self.static_segments.push(Segment::resting(position));
             BodyId::of_static(self.statics.len() as u32 - 1)
         } else {
@@ -201,6 +222,7 @@ impl Bodies {
             self.range_of_radii = Some((least.min(radius), largest.max(radius)));
             self.radii.push(radius);
             self.dynamic.push(body);
+            self.dynamic_identities.push(identity);
             BodyId::of_dynamic(self.dynamic.len() as u32 - 1)
         };
         self.by_key.insert((key, id));
@@ -209,16 +231,29 @@ impl Bodies {
 
     /// Takes a body away: its number stays. [`Self::measure`] is due after the last of several.
     pub fn remove(&mut self, id: BodyId) {
-        let body = self.get_mut(id);
-        body.present = false;
-        let key = body.identity.key;
+        self.get_mut(id).present = false;
+        let key = self.identity(id).key;
         self.by_key.remove(&(key, id));
     }
 
     /// Puts another static body of the same key in the place of one.
-    pub fn replace_static(&mut self, index: u32, body: Body, position: DVec3) {
+    pub fn replace_static(&mut self, index: u32, identity: Identity, body: Body, position: DVec3) {
         self.statics[index as usize] = body;
+        self.static_identities[index as usize] = identity;
         self.static_segments[index as usize] = Segment::resting(position);
+    }
+
+    /// Who a body is.
+    pub fn identity(&self, id: BodyId) -> &Identity {
+        &self.identities(id.is_static())[id.index() as usize]
+    }
+
+    pub fn find_identity(&self, id: BodyId) -> Option<&Identity> {
+        self.identities(id.is_static()).get(id.index() as usize)
+    }
+
+    fn identities(&self, is_static: bool) -> &[Identity] {
+        if is_static { &self.static_identities } else { &self.dynamic_identities }
     }
 
     pub fn find(&self, id: BodyId) -> Option<&Body> {

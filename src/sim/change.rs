@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use super::body::BodyId;
 use super::books::{angular_value, book_segment, energies, momentum_value};
-use super::compile::{check_force, check_roughness, compile_body};
+use super::compile::{Compiled, check_force, check_roughness, compile_body};
 use super::dense::set_step;
 use super::drive::begin_all;
 use super::edit::{EditRefused, SimEdit};
@@ -203,7 +203,8 @@ fn add_body(
         return Err(EditRefused(format!("body {} is there already", body.label)));
     }
     let order = model.bodies.count_of(body.id);
-    let (compiled, origin) = compile_body(body, order).map_err(|problem| EditRefused(problem.message))?;
+    let Compiled { identity, body: compiled, origin } =
+        compile_body(body, order).map_err(|problem| EditRefused(problem.message))?;
     let most = MOST_TILES_ACROSS * model.grid.tile_size.min_element();
     if !compiled.is_static() && 2.0 * compiled.shape.radius() > most {
         return Err(EditRefused(format!(
@@ -211,7 +212,7 @@ fn add_body(
             body.label
         )));
     }
-    let id = model.bodies.push(compiled, origin.position);
+    let id = model.bodies.push(identity, compiled, origin.position);
     let Some(index) = id.dynamic() else {
         after.has_new_statics = true;
         return Ok(id);
@@ -254,12 +255,13 @@ fn change_static(model: &mut Model, after: &mut Aftermath, body: &Body) -> Resul
     let Some(id) = find(model, body.key).filter(|id| id.is_static()) else {
         return Err(EditRefused(format!("body {} is no static body of the run", body.label)));
     };
-    let order = model.body(id).identity.order;
-    let (compiled, origin) = compile_body(body, order).map_err(|problem| EditRefused(problem.message))?;
+    let (_, order) = model.body(id).rank();
+    let Compiled { identity, body: compiled, origin } =
+        compile_body(body, order).map_err(|problem| EditRefused(problem.message))?;
     if !compiled.is_static() {
         return Err(EditRefused("a static body cannot become dynamic while running".into()));
     }
-    model.bodies.replace_static(id.index(), compiled, origin.position);
+    model.bodies.replace_static(id.index(), identity, compiled, origin.position);
     after.has_new_statics = true;
     after.apart.insert(id);
     Ok(id)

@@ -1,7 +1,5 @@
 //! Scene → model and state: sorts bodies and forces by UserID, makes the tiles, decides the plan.
 
-use std::sync::Arc;
-
 use glam::{DMat3, DVec3};
 
 use super::body::{Bodies, Body, Identity, Origin, Rare};
@@ -22,15 +20,16 @@ pub(super) fn compile(scene: &Scene, method: Method) -> Result<(Model, Vec<Origi
     let mut sorted: Vec<&scene::Body> = scene.bodies.iter().collect();
     // Stable: bodies of the same id stay in file order.
     sorted.sort_by_key(|body| body.id);
-    let mut bodies = Bodies::default();
-    let mut origins = Vec::new();
+    let dynamic = sorted.iter().filter(|body| body.is_dynamic()).count();
+    let mut bodies = Bodies::with_room(dynamic);
+    let mut origins = Vec::with_capacity(dynamic);
     let mut problems = check_world(scene);
     let mut order = 0;
     for (index, body) in sorted.iter().enumerate() {
         order = if index > 0 && sorted[index - 1].id == body.id { order + 1 } else { 0 };
         match compile_body(body, order) {
-            Ok((body, origin)) => {
-                if !bodies.push(body, origin.position).is_static() {
+            Ok(Compiled { identity, body, origin }) => {
+                if !bodies.push(identity, body, origin.position).is_static() {
                     origins.push(origin);
                 }
             }
@@ -68,17 +67,21 @@ pub(super) fn compile(scene: &Scene, method: Method) -> Result<(Model, Vec<Origi
     Ok((model, origins))
 }
 
-/// One body of a model. `order` is its place among those of its id.
-pub(super) fn compile_body(body: &scene::Body, order: u32) -> Result<(Body, Origin), Diagnostic> {
+/// One body of a model.
+pub(super) struct Compiled {
+    pub identity: Identity,
+    pub body: Body,
+    pub origin: Origin,
+}
+
+/// `order` is its place among those of its id.
+pub(super) fn compile_body(body: &scene::Body, order: u32) -> Result<Compiled, Diagnostic> {
     check_numbers(body)?;
     let (mass, velocity) = match body.motion {
         Motion::Dynamic { mass, velocity } => (mass, velocity),
         Motion::Static => (f64::INFINITY, DVec3::ZERO),
     };
     let shape = compile_shape(body)?;
-    let label: Arc<str> = Arc::from(body.label.as_str());
-    let name = if body.display_name() == body.label { label.clone() } else { Arc::from(body.display_name()) };
-    let identity = Identity { key: body.key, id: body.id, label, name, order };
     let rare = Rare {
         material: body.material.as_deref().map(Box::from),
         roughness: body.roughness,
@@ -86,8 +89,11 @@ pub(super) fn compile_body(body: &scene::Body, order: u32) -> Result<(Body, Orig
         rotation: if body.is_dynamic() { body.rotation } else { DVec3::ZERO },
         spin: if body.is_dynamic() { body.spin } else { DVec3::ZERO },
     };
-    let compiled = Body::new(identity, mass, body.bounce, shape, rare);
-    Ok((compiled, Origin { position: body.position, velocity }))
+    Ok(Compiled {
+        identity: Identity::new(body.key, &body.label, body.display_name()),
+        body: Body::new((body.id, order), mass, body.bounce, shape, rare),
+        origin: Origin { position: body.position, velocity },
+    })
 }
 
 fn compile_shape(body: &scene::Body) -> Result<shape::Shape, Diagnostic> {

@@ -1,5 +1,6 @@
 //! Faults: what stops a run, and the messages.
 
+use super::body::BodyId;
 use super::model::Model;
 use super::motion::SegmentError;
 use crate::scene::{Diagnostic, NodeKey, Severity};
@@ -36,8 +37,8 @@ impl Fault {
 
 /// What to report of a body that has no motion from here on.
 pub(super) fn fault(model: &Model, body: u32, time: f64, error: SegmentError) -> Fault {
-    let identity = &model.dynamic(body).identity;
-    let name = &identity.name;
+    let identity = model.identity(BodyId::of_dynamic(body));
+    let name = identity.name();
     let message = match error {
         SegmentError::NotFinite => {
             format!(

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::body::{Bodies, Body, BodyId};
+use super::body::{Bodies, Body, BodyId, Identity};
 use super::force::{ForceEntry, Subject};
 use super::method::Method;
 use super::place::Place;
@@ -42,6 +42,11 @@ pub(super) struct Model {
 impl Model {
     pub fn body(&self, id: BodyId) -> &Body {
         self.bodies.get(id)
+    }
+
+    /// Who a body is.
+    pub fn identity(&self, id: BodyId) -> &Identity {
+        self.bodies.identity(id)
     }
 
     /// A dynamic body.

@@ -45,10 +45,15 @@ fn overlap_warnings(model: &Model, state: &State) -> Result<Vec<Diagnostic>, Dia
         if depth > contact_distance(model, pair, gap.point).max(HEAP_OVERLAP * smallest_radius(model, pair)) {
             count += 1;
             if count <= MOST_WARNINGS {
-                let (a, b) = (&model.body(pair.a).identity, &model.body(pair.b).identity);
+                let (a, b) = (model.identity(pair.a), model.identity(pair.b));
                 warnings.push(warning(
                     a,
-                    format!("bodies {} and {} overlap by {} m at the start", a.name, b.name, meters(depth)),
+                    format!(
+                        "bodies {} and {} overlap by {} m at the start",
+                        a.name(),
+                        b.name(),
+                        meters(depth)
+                    ),
                     "move them apart; the run goes on, but they can part only by moving away from each other",
                 ));
             }
@@ -86,8 +91,8 @@ fn outside_warnings(model: &Model, state: &State) -> Vec<Diagnostic> {
     };
     let mut outside = model.present().filter(is_outside);
     let first = outside.by_ref().take(MOST_WARNINGS).map(|body| {
-        let identity = &model.dynamic(body).identity;
-        let message = format!("body {} starts outside the map", identity.name);
+        let identity = model.identity(BodyId::of_dynamic(body));
+        let message = format!("body {} starts outside the map", identity.name());
         warning(identity, message, "move it inside or enlarge the map; it is simulated all the same")
     });
     let mut warnings: Vec<Diagnostic> = first.collect();
@@ -108,8 +113,8 @@ fn tiny_warnings(model: &Model, state: &State) -> Vec<Diagnostic> {
         radius <= touch_tolerance(state.position(*body, state.now), radius)
     };
     let warn = |body: u32| {
-        let identity = &model.dynamic(body).identity;
-        let message = format!("body {} is smaller than the last digit of its position", identity.name);
+        let identity = model.identity(BodyId::of_dynamic(body));
+        let message = format!("body {} is smaller than the last digit of its position", identity.name());
         warning(identity, message, "make it larger: it may pass through others unseen")
     };
     model.present().filter(is_tiny).take(MOST_WARNINGS).map(warn).collect()

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::body::{BodyId, Identity};
+use super::body::{BodyId, Identity, Origin};
 use super::books::{self, subject};
 use super::candidates::{CandidateSet, candidate_sets};
 use super::compile::compile;
@@ -75,10 +75,23 @@ impl Simulation {
 
     /// As [`Self::new`], stepping by another method.
     pub fn with_method(scene: &Scene, method: Method) -> Result<Self, CompileError> {
-        let (mut model, starts) = compile(scene, method).map_err(|problems| CompileError { problems })?;
+        Self::begun(compile(scene, method))
+    }
+
+    /// As [`Self::with_method`], of a scene that nobody else needs: its memory is given back before the simulation begins.
+    pub fn of_owned(scene: Arc<Scene>, method: Method) -> Result<Self, CompileError> {
+        let compiled = compile(&scene, method);
+        drop(scene);
+        Self::begun(compiled)
+    }
+
+    /// Goes to the start.
+    fn begun(compiled: Result<(Model, Vec<Origin>), Vec<Diagnostic>>) -> Result<Self, CompileError> {
+        let (mut model, starts) = compiled.map_err(|problems| CompileError { problems })?;
         let mut state = State::new(&starts);
+        drop(starts);
         state.make_turns(&model);
-        for body in 0..starts.len() as u32 {
+        for body in 0..model.bodies.dynamic().len() as u32 {
             enter(&model, &mut state, body, 0.0);
         }
         // Before anything is predicted: what is refused here would take minutes.
@@ -252,11 +265,6 @@ impl Simulation {
         self.identity(body).map_or("", |identity| &identity.label)
     }
 
-    /// As [`Self::label`], shared.
-    pub fn shared_label(&self, body: BodyRef) -> Arc<str> {
-        self.identity(body).map_or_else(Arc::default, |identity| identity.label.clone())
-    }
-
     /// Mass in kg of a dynamic body; `None` for others.
     pub fn mass(&self, body: BodyRef) -> Option<f64> {
         self.dynamic_index(body).map(|index| self.model.mass(index))
@@ -399,7 +407,7 @@ impl Simulation {
     }
 
     fn identity(&self, body: BodyRef) -> Option<&Identity> {
-        self.model.bodies.find(BodyId::from_ref(body)).map(|body| &*body.identity)
+        self.model.bodies.find_identity(BodyId::from_ref(body))
     }
 }
 

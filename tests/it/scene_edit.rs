@@ -221,7 +221,7 @@ fn new_ball(id: i64) -> Body {
     Body {
         key: NodeKey::default(),
         id,
-        label: String::new(),
+        label: String::new().into(),
         name: Some("New".into()),
         color: None,
         group: None,
@@ -300,7 +300,7 @@ fn empty_and_missing_sections_are_opened() {
     let drag = Force {
         key: NodeKey::default(),
         id: 1,
-        label: String::new(),
+        label: String::new().into(),
         name: None,
         group: None,
         hidden: false,

@@ -192,7 +192,7 @@ impl Step {
             _ => Edit::AddBody(Box::new(Body {
                 key: NodeKey::default(),
                 id: 1,
-                label: String::new(),
+                label: String::new().into(),
                 name,
                 color: Some([1, 2, 3]),
                 group: None,

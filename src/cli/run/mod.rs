@@ -17,11 +17,11 @@ use self::summary::Summary;
 use super::limits::LimitArgs;
 use super::output::{self, is_stdout};
 use super::samples::SampleGrid;
-use super::table::RowArgs;
+use super::table::{RowArgs, Wanted};
 use super::{CliError, input, interrupt, method, number};
 use crate::record::Watch;
-use crate::scene::shown_path;
-use crate::sim::{EventKind, Method};
+use crate::scene::{Document, FileStamp, Map, shown_path};
+use crate::sim::{EventKind, Method, Simulation};
 
 /// Simulate a scene from t = 0 and write states, events and a summary
 ///
@@ -93,18 +93,7 @@ pub(super) fn run(args: &RunArgs) -> Result<(), CliError> {
 
     let watchdog = args.limits.watchdog();
     let name = input::display_name(&args.scene);
-    let examined = input::open(&args.scene, args.method)?;
-    let mut warnings = examined.lines(&name);
-    for line in &warnings {
-        super::say(line);
-    }
-    let errors = examined.error_count();
-    let Some(mut sim) = examined.simulation else {
-        return Err(CliError::Scene(format!("{name} cannot be simulated: {errors} error(s)")));
-    };
-
-    let scene = examined.document.scene().ok_or_else(|| CliError::Scene(format!("{name} has no scene")))?;
-    let wanted = args.rows.wanted(scene)?;
+    let Started { mut sim, mut warnings, wanted, map, smallest_radius, document } = start(args, &name)?;
     let interrupt = interrupt::on_interrupt();
     final_scene.as_ref().map_or(Ok(()), FinalScene::check)?;
     let mut recorder = Recorder::create(args, &grid, wanted)?;
@@ -116,20 +105,23 @@ pub(super) fn run(args: &RunArgs) -> Result<(), CliError> {
     recorder.close()?;
 
     let overlaps = recorder.overlaps();
-    let told = [summary::overflow_warning(&sim), summary::overlap_warning(overlaps, scene, args.method)];
+    let told =
+        [summary::overflow_warning(&sim), summary::overlap_warning(overlaps, smallest_radius, args.method)];
     for warning in told.into_iter().flatten() {
         let line = format!("{name}: warning: {warning}");
         super::say(&line);
         warnings.push(line);
     }
-    let summary = Summary::new(&sim, &grid, &ending, (overlaps.worst, &scene.map), wall_s, &warnings);
+    let summary = Summary::new(&sim, &grid, &ending, (overlaps.worst, &map), wall_s, &warnings);
     if args.json {
         summary.print_json()?;
     } else if !args.writes_to_stdout() {
         summary.print_for_people(&name)?;
     }
-    if let (false, Some(target)) = (matches!(ending, Ending::Faulted(_)), &final_scene) {
-        target.write(&examined.document, &sim)?;
+    if let (false, Some((target, document))) =
+        (matches!(ending, Ending::Faulted(_)), final_scene.zip(document))
+    {
+        target.write(&document, &sim)?;
     }
     match ending {
         Ending::Finished => Ok(()),
@@ -138,6 +130,39 @@ pub(super) fn run(args: &RunArgs) -> Result<(), CliError> {
         Ending::Interrupted => Err(CliError::interrupted(&sim)),
         Ending::Faulted(fault) => Err(CliError::Fault(fault)),
     }
+}
+
+/// A simulation at its start, and what else a run needs of the scene.
+struct Started {
+    sim: Simulation,
+    /// Said already.
+    warnings: Vec<String>,
+    wanted: Wanted,
+    map: Map,
+    /// m.
+    smallest_radius: Option<f64>,
+    /// Where the last state is written into it.
+    document: Option<Document>,
+}
+
+/// Reads the scene and goes to its start; says what is wrong with it.
+fn start(args: &RunArgs, name: &str) -> Result<Started, CliError> {
+    let before = FileStamp::of(&args.scene);
+    let document = input::read(&args.scene)?;
+    let said = document.scene().map(|scene| (args.rows.wanted(scene), scene.map, scene.smallest_radius()));
+    let (begun, kept) = if args.final_scene.is_some() {
+        let input::Examined { document, simulation, problems } = input::examine(document, args.method);
+        (input::Begun { simulation, problems }, Some(document))
+    } else {
+        (input::begin(document, &args.scene, &before, args.method), None)
+    };
+    let warnings = input::lines(name, &begun.problems);
+    warnings.iter().for_each(super::say);
+    let Some((sim, (wanted, map, smallest_radius))) = begun.simulation.zip(said) else {
+        let errors = input::error_count(&begun.problems);
+        return Err(CliError::Scene(format!("{name} cannot be simulated: {errors} error(s)")));
+    };
+    Ok(Started { sim, warnings, wanted: wanted?, map, smallest_radius, document: kept })
 }
 
 impl RunArgs {

@@ -8,7 +8,7 @@ use super::drive::Ending;
 use super::recorder::Overlaps;
 use crate::cli::samples::SampleGrid;
 use crate::cli::{CliError, output};
-use crate::scene::{HEAP_OVERLAP, Map, Scene};
+use crate::scene::{HEAP_OVERLAP, Map};
 use crate::sim::{Energy, EventKind, Method, Plan, Simulation};
 
 /// Overlap that deserves a warning, of the smallest radius: ten times what the bodies of a heap may have.
@@ -261,8 +261,8 @@ pub fn overflow_warning(sim: &Simulation) -> Option<String> {
 
 /// Says that bodies went far deeper into each other than those of a heap may, which are pressed there. What overlapped so when the
 /// run began was told then.
-pub fn overlap_warning(overlaps: Overlaps, scene: &Scene, method: Method) -> Option<String> {
-    if overlaps.more() <= DEEP * scene.smallest_radius()? {
+pub fn overlap_warning(overlaps: Overlaps, smallest_radius: Option<f64>, method: Method) -> Option<String> {
+    if overlaps.more() <= DEEP * smallest_radius? {
         return None;
     }
     let way_out = match method {
@@ -327,20 +327,12 @@ fn line(text: &mut String, label: &str, value: &str) {
 
 #[cfg(test)]
 mod tests {
-    use glam::DVec3;
-
     use super::*;
-    use crate::scene::{Body, Motion, Shape, SimParams};
 
     fn told(depths: &[f64], radius: f64, method: Method) -> Option<String> {
-        let motion = Motion::Dynamic { mass: 1.0, velocity: DVec3::ZERO };
-        let ball = Body::new(1, DVec3::ONE, motion, Shape::Sphere { radius });
-        let map = Map { size: DVec3::ONE, tiles: [1; 3] };
-        let (params, forces) = (SimParams::default(), Vec::new());
-        let scene = Scene { map, time_speed: 1.0, params, forces, bodies: [ball].into() };
         let mut overlaps = Overlaps::default();
         depths.iter().for_each(|depth| overlaps.note(*depth));
-        overlap_warning(overlaps, &scene, method)
+        overlap_warning(overlaps, Some(radius), method)
     }
 
     #[test]

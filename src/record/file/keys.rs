@@ -36,7 +36,7 @@ pub(super) fn names<'a>(scene: &Scene, edits: impl Iterator<Item = &'a SimEdit>)
         let body = scene.bodies.iter().find(|body| body.key == key).map(|body| (true, &body.label));
         let force = scene.forces.iter().find(|force| force.key == key).map(|force| (false, &force.label));
         if let Some((is_body, label)) = body.or(force) {
-            names.insert(key, NamedKey { key, is_body, label: label.clone() });
+            names.insert(key, NamedKey { key, is_body, label: label.to_string() });
         }
     }
     names.into_values().collect()

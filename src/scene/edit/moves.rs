@@ -109,7 +109,7 @@ fn is_plain(document: &Document, key: NodeKey) -> bool {
         let list = List::Bodies.find(root)?;
         list.node.children(text).get(at).and_then(Child::element)?.reading.get()
     });
-    item.is_some_and(|reading| reading.problems.is_empty() && matches!(reading.item, Item::Body(_)))
+    item.is_some_and(|reading| reading.problems().is_empty() && matches!(reading.item, Item::Body(_)))
 }
 
 /// The tree with the moves in it. They cannot be refused, for they were looked at.

@@ -21,8 +21,8 @@ pub(super) fn patched(pen: Pen<'_>, old: &Meaning, changes: &Changes) -> Option<
     let mut bodies = FxHashMap::default();
     for (before, now) in changes.values() {
         let [before, now] = [before, now].map(|node| ItemReading::kept_body(pen.view(node)));
-        let quiet = before.problems.is_empty() && now.problems.is_empty();
-        let same_uses = before.uses.iter().map(|used| used.0).eq(now.uses.iter().map(|used| used.0));
+        let quiet = before.problems().is_empty() && now.problems().is_empty();
+        let same_uses = before.uses().iter().map(|used| used.0).eq(now.uses().iter().map(|used| used.0));
         if !(quiet && same_uses && before.id == now.id) {
             return None;
         }
@@ -50,7 +50,7 @@ pub(super) fn patched(pen: Pen<'_>, old: &Meaning, changes: &Changes) -> Option<
 pub(super) fn reading_after(before: &ItemReading, change: &BodyChange) -> Option<ItemReading> {
     let Item::Body(body) = &before.item else { return None };
     // A problem may be about the very number.
-    if !before.problems.is_empty() {
+    if !before.problems().is_empty() {
         return None;
     }
     let (motion, shape) = match (change, body.motion, &body.shape) {
@@ -71,6 +71,5 @@ pub(super) fn reading_after(before: &ItemReading, change: &BodyChange) -> Option
         BodyChange::Rotation(rotation) => body.rotation = rotation,
         _ => {}
     }
-    let (problems, uses) = (before.problems.clone(), before.uses.clone());
-    Some(ItemReading { item: Item::Body(Arc::new(body)), id: before.id, problems, uses })
+    Some(before.with_body(body))
 }

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use compact_str::CompactString;
 use glam::DVec3;
 
 use super::cosmetic::Cosmetics;
@@ -80,7 +81,7 @@ pub(super) fn read<'a>(el: View<'a>, log: &mut Log<'a>, cosmetics: Cosmetics, us
     Body {
         key: el.node.key,
         id: 0,
-        label: String::new(),
+        label: CompactString::default(),
         name: cosmetics.name,
         group: cosmetics.group,
         color: cosmetics.color,

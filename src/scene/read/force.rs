@@ -1,5 +1,6 @@
 //! Forces: `GravityPoint`, `GravityPlane` and, since 1.1, `SpaceAverse`.
 
+use compact_str::CompactString;
 use glam::DVec3;
 
 use super::cosmetic::Cosmetics;
@@ -36,7 +37,7 @@ pub(super) fn read<'a>(el: View<'a>, log: &mut Log<'a>, cosmetics: Cosmetics) ->
     Force {
         key: el.node.key,
         id: 0,
-        label: String::new(),
+        label: CompactString::default(),
         name: cosmetics.name,
         group: cosmetics.group,
         hidden: cosmetics.hidden,

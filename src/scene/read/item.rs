@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use compact_str::CompactString;
+
 use super::feature::{self, Use};
 use super::log::Log;
 use super::problem::{Limited, Problem};
@@ -15,10 +17,15 @@ pub(in crate::scene) struct ItemReading {
     /// With the `UserID` of the file and the label that it has alone, or without both: the rest depends on the other elements.
     pub item: Item,
     pub id: Option<i64>,
-    /// Paths begin below the element.
-    pub problems: Limited<Problem>,
-    /// Elements of format 1.1.
-    pub uses: Vec<Use>,
+    /// Most have none.
+    remarks: Option<Box<Remarks>>,
+}
+
+/// What there is to say about an element.
+#[derive(Clone, Debug, Default)]
+struct Remarks {
+    problems: Limited<Problem>,
+    uses: Vec<Use>,
 }
 
 #[derive(Clone, Debug)]
@@ -36,6 +43,27 @@ impl ItemReading {
         el.node.reading.get_or_init(|| Arc::new(Self::of_body(el)))
     }
 
+    fn new(item: Item, id: Option<i64>, remarks: Remarks) -> Self {
+        let is_plain = remarks.problems.is_empty() && remarks.uses.is_empty();
+        Self { item, id, remarks: (!is_plain).then(|| Box::new(remarks)) }
+    }
+
+    /// The same element with other numbers, that change neither its problems nor its uses.
+    pub fn with_body(&self, body: Body) -> Self {
+        Self { item: Item::Body(Arc::new(body)), id: self.id, remarks: self.remarks.clone() }
+    }
+
+    /// Paths begin below the element.
+    pub fn problems(&self) -> &Limited<Problem> {
+        const NONE: &Limited<Problem> = &Limited::NONE;
+        self.remarks.as_ref().map_or(NONE, |remarks| &remarks.problems)
+    }
+
+    /// Elements of format 1.1.
+    pub fn uses(&self) -> &[Use] {
+        self.remarks.as_ref().map_or(&[], |remarks| &remarks.uses)
+    }
+
     /// The body, if the element is one.
     pub fn body(&self) -> Option<&Arc<Body>> {
         match &self.item {
@@ -50,7 +78,7 @@ impl ItemReading {
             let body = body::read(el, log, cosmetics, uses);
             // As it is called if no other has its id, so that the scene can share it.
             let own = id.map(|id| Label { id, repeat: 1 });
-            let (id, label) = own.map_or((0, String::new()), |own| (own.id, own.text()));
+            let (id, label) = own.map_or((0, CompactString::default()), |own| (own.id, own.text()));
             Item::Body(Arc::new(Body { id, label, ..body }))
         })
     }
@@ -71,13 +99,13 @@ impl ItemReading {
         let mut uses = Vec::new();
         if !known.contains(&el.name()) {
             log.unknown_element(el, known);
-            return Self { item: Item::Unknown, id: None, problems: log.problems, uses };
+            return Self::new(Item::Unknown, None, Remarks { problems: log.problems, uses });
         }
         feature::note(&mut uses, el.name(), el.place());
         log.check_attributes(el, &["UserID"]);
         let id = log.user_id(el);
         let cosmetics = cosmetic::read(el, &mut log);
         let item = read(el, (&mut log, id), cosmetics, &mut uses);
-        Self { item, id, problems: log.problems, uses }
+        Self::new(item, id, Remarks { problems: log.problems, uses })
     }
 }

@@ -24,11 +24,13 @@ pub(in crate::scene) struct Limited<T> {
 
 impl<T> Default for Limited<T> {
     fn default() -> Self {
-        Self { kept: Vec::new(), counts: [0; 2] }
+        Self::NONE
     }
 }
 
 impl<T> Limited<T> {
+    pub const NONE: Self = Self { kept: Vec::new(), counts: [0; 2] };
+
     /// Counts one more, and keeps it if there is room.
     pub fn add(&mut self, severity: Severity, make: impl FnOnce() -> T) {
         self.counts[severity as usize] += 1;

@@ -138,27 +138,26 @@ impl Reader {
             log.error(surplus.place(), message, "divide the scene");
         }
         self.take(&log.problems, path, el);
-        let items = el.elements().take(MAX_ITEMS).map(|el| {
-            let reading = el.node.reading.get_or_init(|| {
+        let reading_of = |el: View<'a>| {
+            el.node.reading.get_or_init(|| {
                 let node = &el.node.unfolded(el.source);
                 Arc::new(read(View { node, source: el.source }))
-            });
-            (el, reading)
-        });
-        let items = items.collect::<Vec<_>>();
-        let mut labels = Labels::of(items.iter().map(|(_, reading)| reading.id));
+            })
+        };
+        let items = el.elements().take(MAX_ITEMS).map(|el| (el, reading_of(el)));
+        let mut labels = Labels::of(&items.clone().map(|(_, reading)| reading.id));
         for (el, reading) in items {
             if matches!(reading.item, Item::Unknown) {
-                self.take(&reading.problems, path, el);
+                self.take(reading.problems(), path, el);
                 continue;
             }
             let label = labels.next(reading.id);
-            reading.uses.iter().for_each(|&used| self.features.add(used));
+            reading.uses().iter().for_each(|&used| self.features.add(used));
             let mut log = Log::default();
             self.check_id(&mut log, el, reading, label);
-            if !(log.problems.is_empty() && reading.problems.is_empty()) {
+            if !(log.problems.is_empty() && reading.problems().is_empty()) {
                 let path = format!("{path}/{}[{}]", el.name(), label.text());
-                self.take(&reading.problems, &path, el);
+                self.take(reading.problems(), &path, el);
                 self.take(&log.problems, &path, el);
             }
             add(&reading.item, label);

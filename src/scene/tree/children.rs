@@ -48,7 +48,7 @@ impl Chunk {
 pub(in crate::scene) type Splice = (Range<usize>, Vec<Child>);
 
 impl Children {
-    pub fn iter(&self) -> impl DoubleEndedIterator<Item = &Child> {
+    pub fn iter(&self) -> impl DoubleEndedIterator<Item = &Child> + Clone {
         self.chunks.iter().flat_map(|chunk| chunk.items.iter())
     }
 

@@ -65,7 +65,7 @@ pub(in crate::scene) struct Element {
 #[derive(Clone, Debug)]
 enum Inside {
     Listed(Children),
-    Piece { start: u32, end: u32, listed: OnceLock<Children> },
+    Piece { start: u32, end: u32, listed: OnceLock<Box<Children>> },
 }
 
 /// What is inside an element, as it is kept.
@@ -93,7 +93,7 @@ impl Element {
         match &self.inside {
             Inside::Listed(children) => children,
             Inside::Piece { start, end, listed } => {
-                listed.get_or_init(|| parse::inside(source, *start..*end))
+                listed.get_or_init(|| Box::new(parse::inside(source, *start..*end)))
             }
         }
     }

@@ -35,7 +35,7 @@ impl<'a> View<'a> {
     }
 
     /// The child elements.
-    pub fn elements(self) -> impl DoubleEndedIterator<Item = View<'a>> {
+    pub fn elements(self) -> impl DoubleEndedIterator<Item = View<'a>> + Clone {
         let source = self.source;
         self.node.children(source).iter().filter_map(Child::element).map(move |node| View { node, source })
     }

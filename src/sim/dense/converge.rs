@@ -260,9 +260,19 @@ mod tests {
 
     /// Where earlier steps have given energy, J.
     fn solved_in_a_jam(bodies: &[Stepped], contacts: &mut Vec<Contact>, given: f64) -> Solution {
+        solved_after(&mut System::default(), bodies, contacts, given)
+    }
+
+    /// With the memory of earlier steps.
+    fn solved_after(
+        system: &mut System,
+        bodies: &[Stepped],
+        contacts: &mut Vec<Contact>,
+        given: f64,
+    ) -> Solution {
         let step = Step { h: H, radius: RADIUS };
         let problem = Problem { bodies, step, given, law: &|_| None };
-        solve(&problem, &mut System::default(), contacts, &mut Rubbing::default(), |_, _| {})
+        solve(&problem, system, contacts, &mut Rubbing::default(), |_, _| {})
     }
 
     #[test]
@@ -277,6 +287,25 @@ mod tests {
         let carried = contacts.iter().find(|contact| contact.a == 140).map_or(0.0, |contact| contact.impulse);
         let weight = uneven.iter().sum::<f64>() * G * H;
         assert!((carried - weight).abs() < 1e-6 * weight, "{carried} of {weight}");
+    }
+
+    #[test]
+    fn a_step_that_overflowed_leaves_nothing_behind() {
+        let mut system = System::default();
+        let (mut bodies, mut contacts) = columns(&[&[1.0, 1.0][..]; 3]);
+        bodies[1].u = DVec3::NEG_Y * f64::MAX;
+        contacts[0].bound = f64::MAX;
+        contacts[1].bound = f64::MAX;
+        let overflowed = solved_after(&mut system, &bodies, &mut contacts, 0.0);
+        assert!(!overflowed.loss.is_finite(), "{overflowed:?}");
+        let (bodies, mut contacts) = columns(&[&[1.0, 1.0][..]; 3]);
+        let solution = solved_after(&mut system, &bodies, &mut contacts, 0.0);
+        assert!(solution.has_converged, "{solution:?}");
+        for contact in &contacts {
+            let weight = if contact.b == FIXED { 2.0 } else { 1.0 } * G * H;
+            // To what a few sweeps tolerate.
+            assert!((contact.impulse - weight).abs() < 0.02 * weight, "{contact:?}");
+        }
     }
 
     /// A ball squeezed between two walls by impulses that balance each other and bear nothing.

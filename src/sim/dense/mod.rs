@@ -26,7 +26,7 @@ mod membership;
 mod rest;
 mod rows;
 #[cfg(target_arch = "x86_64")]
-mod rows_avx2;
+mod rows_avx;
 mod rub;
 mod solve;
 mod start;

@@ -167,9 +167,10 @@ fn minus(one: Moving, other: Moving) -> [f64; 4] {
     std::array::from_fn(|axis| one[axis] - other[axis])
 }
 
+/// Of the first three.
 #[inline(always)]
 fn dot(one: [f64; 4], other: [f64; 4]) -> f64 {
-    (one[0] * other[0] + one[2] * other[2]) + (one[1] * other[1] + one[3] * other[3])
+    (one[0] * other[0] + one[2] * other[2]) + one[1] * other[1]
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::rows::{Row, Rows, Swept, moved};
 #[cfg(target_arch = "x86_64")]
-use super::rows_avx2;
+use super::rows_avx;
 use super::rub::Rubbing;
 use super::stepped::{Contact, Moving, Step, Stepped, velocity};
 use super::tolerance::{BUDGET, CREEPING, FINEST, GIVING, SHARE_OF_DIRECTION, SLOW};
@@ -56,6 +56,9 @@ impl System {
         self.moving.clear();
         self.moving.extend(bodies.iter().map(|body| free(body, h)));
         self.moving.push(Moving::default());
+        // What is not a number, of a step that was given up, would stay: zero times it is none.
+        self.directions.clear();
+        self.headings.clear();
         self.headings.resize(self.moving.len(), Moving::default());
     }
 
@@ -183,7 +186,7 @@ impl System {
 /// One sweep over all rows, by fours where the processor can.
 fn sweep(rows: &Rows, is_backward: bool, swept: Swept<'_>) {
     #[cfg(target_arch = "x86_64")]
-    let Some(swept) = rows_avx2::sweep(rows, is_backward, swept) else { return };
+    let Some(swept) = rows_avx::sweep(rows, is_backward, swept) else { return };
     rows.sweep_one_by_one(is_backward, swept);
 }
 

@@ -41,8 +41,6 @@ impl Convex for Capsule {
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
     use super::super::Shape;
     use super::*;
     use crate::scene::{Body, Document, Force, ForceKind, Motion, NodeKey, NumberStyle, Scene};
@@ -85,10 +83,10 @@ mod tests {
     fn fall(offset: DVec3, bounce: f64, until: f64) -> (Vec<Event>, ContactState) {
         let capsule = Capsule { half: DVec3::Z, radius: 0.25 };
         let (mut model, origins) = compile(&ball_above(offset, bounce), Method::Exact).unwrap();
-        let (label, name) = (Arc::from("2"), Arc::from("2"));
-        let identity = Identity { key: NodeKey(2), id: 2, label, name, order: 0 };
+        let identity = Identity::new(NodeKey(2), "2", "2");
         let shape = Shape::Capsule(capsule);
-        model.bodies.push(body::Body::new(identity, f64::INFINITY, 1.0, shape, Rare::default()), MIDDLE);
+        let body = body::Body::new((2, 0), f64::INFINITY, 1.0, shape, Rare::default());
+        model.bodies.push(identity, body, MIDDLE);
         model.static_tiles = StaticTiles::new(&model.grid, &model.bodies, 1000);
         let mut state = State::new(&origins);
         enter(&model, &mut state, 0, 0.0);

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::sim::body::BodyId;
 use crate::sim::books::{book_segment, subject};
 use crate::sim::fault::Fault;
 use crate::sim::force::{Law, Subject};
@@ -64,8 +65,8 @@ fn acceleration(model: &Model, state: &mut State, at: &Subject<'_>) -> DVec3 {
 fn replace(model: &Model, state: &mut State, body: u32, segment: Segment) -> Result<(), Fault> {
     // The squares too: an infinite length compares with nothing.
     if ![segment.x, segment.v, segment.a].iter().all(|vector| vector.length_squared().is_finite()) {
-        let identity = &model.dynamic(body).identity;
-        let name = &identity.name;
+        let identity = model.identity(BodyId::of_dynamic(body));
+        let name = identity.name();
         let message = format!("body {name}: position, velocity or force is not a finite number");
         return Err(Fault { time: segment.start, message, key: Some(identity.key) });
     }

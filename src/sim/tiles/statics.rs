@@ -161,14 +161,12 @@ fn touches(grid: &Grid, tile: [u32; 3], (shape, at): (&dyn Convex, DVec3), margi
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
     use glam::DQuat;
 
     use super::*;
     use crate::random::Random;
     use crate::scene::{Map, NodeKey};
-    use crate::sim::body::{Body, Identity};
+    use crate::sim::body::{Body, Identity, Rare};
     use crate::sim::shape::{Plate, Shape, Sphere};
 
     fn only(position: DVec3, shape: Shape) -> Bodies {
@@ -178,12 +176,8 @@ mod tests {
     }
 
     fn add(bodies: &mut Bodies, position: DVec3, shape: Shape) {
-        let (label, name) = (Arc::from("0"), Arc::from("0"));
-        let identity = Identity { key: NodeKey(0), id: 0, label, name, order: 0 };
-        bodies.push(
-            Body::new(identity, f64::INFINITY, 1.0, shape, crate::sim::body::Rare::default()),
-            position,
-        );
+        let body = Body::new((0, 0), f64::INFINITY, 1.0, shape, Rare::default());
+        bodies.push(Identity::new(NodeKey(0), "0", "0"), body, position);
     }
 
     fn random_plate(random: &mut Random, scale: f64) -> (Bodies, Plate) {

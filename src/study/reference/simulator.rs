@@ -474,7 +474,7 @@ impl Reference {
 }
 
 fn unsupported(body: &Body) -> Unsupported {
-    Unsupported { label: body.label.clone(), what: format!("{:?} that is {:?}", body.shape, body.motion) }
+    Unsupported { label: body.label.to_string(), what: format!("{:?} that is {:?}", body.shape, body.motion) }
 }
 
 /// Halves an interval on whose start `holds` is true and on whose end it is not.

@@ -187,3 +187,47 @@ fn problems_of_the_start_are_counted_beyond_the_first() {
         assert!(outcome.stdout.contains(counted), "{counted}");
     }
 }
+
+/// A large scene with its simulation takes at most a kibibyte of memory for each ball, its text of 330 bytes included: beyond
+/// what a small run takes. Known on Linux only.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_large_run_takes_a_kibibyte_for_each_ball() {
+    const BALLS: usize = 40_000;
+    let ball = |n: usize| {
+        let [x, y, z] = [n % 40, n / 40 % 40, n / 1600].map(|place| 0.125 + 0.25 * place as f64 + 1e-13);
+        format!(
+            "<SoftObject UserID=\"{}\"><Translation X=\"{x:?}\" Y=\"{y:?}\" Z=\"{z:?}\" /><Rotation X=\"0\" Y=\"0\" Z=\"0\" />\
+             <Bounce F32=\"1\" /><Weight F32=\"1\" /><InitialVelocity X=\"0.36534255906004387\" Y=\"-0.8054578292645721\" \
+             Z=\"0.46665029713465483\" /><Sphere><Radius F32=\"0.062035049089940016\" /></Sphere></SoftObject>\n",
+            n + 1
+        )
+    };
+    let peak = |balls: usize| {
+        let all: String = (0..balls).map(ball).collect();
+        let bench = Bench::with_scene(&format!(
+            "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<PolyPhysicsXml Version=\"1.0\"><Map><Size X=\"10\" Y=\"10\" Z=\"10\" />\
+             <Tiles X=\"40\" Y=\"40\" Z=\"40\" /></Map><Primitives>\n{all}</Primitives></PolyPhysicsXml>\n"
+        ));
+        let mut child =
+            bench.command(&["run", "scene.xml", "--until", "0.05"]).spawn().expect("the program starts");
+        let status = format!("/proc/{}/status", child.id());
+        let mut peak = 0_u64;
+        let ended = loop {
+            if let Some(ended) = child.try_wait().expect("a child") {
+                break ended;
+            }
+            let lines = std::fs::read_to_string(&status).unwrap_or_default();
+            let kib = lines
+                .lines()
+                .find_map(|line| line.strip_prefix("VmHWM:")?.split_whitespace().next()?.parse().ok());
+            peak = peak.max(kib.unwrap_or(0));
+            std::thread::sleep(Duration::from_millis(2));
+        };
+        assert!(ended.success(), "{ended}");
+        peak
+    };
+    let (small, large) = (peak(10), peak(BALLS));
+    let each = 1024.0 * (large as f64 - small as f64) / BALLS as f64;
+    assert!(small > 0 && each < 1024.0, "{each} bytes for each ball: {small} KiB and {large} KiB");
+}

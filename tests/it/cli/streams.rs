@@ -147,3 +147,39 @@ fn a_full_disk_is_told() {
     assert_eq!(outcome.code, 2, "{}", outcome.stderr);
     assert!(outcome.stderr.contains("cannot write /dev/full"), "{}", outcome.stderr);
 }
+
+/// What the simulation finds wrong is told with its place, although the document is given back before it begins: a file is
+/// read again for that, what came through a pipe is kept.
+#[test]
+fn problems_at_the_start_have_their_places_wherever_the_scene_comes_from() {
+    let low = BOUNCE.replace(r#"X="5" Y="5""#, r#"X="5" Y="0,25""#);
+    let core = "<GravityPoint UserID=\"2\"><Translation X=\"5\" Y=\"5\" Z=\"5\" />\
+                <Gravity F32=\"10\" /></GravityPoint>\n    </Forces>";
+    let stuck = BOUNCE.replace("</Forces>", core);
+    for (scene, code, word) in [(low, 0, "warning: "), (stuck, 1, "error: ")] {
+        let bench = Bench::with_scene(&scene);
+        let checked = bench.polyscene(&["check", "scene.xml"]).stdout;
+        assert!(checked.contains(word) && checked.starts_with("scene.xml:1"), "{checked}");
+        let run = |from: &str| {
+            let command = format!("{from} --until 0.1 --json");
+            let output = Command::new("sh").args(["-c", &command]).current_dir(bench.path(".")).output();
+            let output = output.expect("the shell starts");
+            (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+        };
+        let program = env!("CARGO_BIN_EXE_polyscene");
+        for (from, name) in [
+            (format!("{program} run scene.xml"), "scene.xml"),
+            (format!("{program} run - < scene.xml"), "<stdin>"),
+            (format!("cat scene.xml | {program} run /dev/stdin"), "/dev/stdin"),
+        ] {
+            let (ended, said) = run(&from);
+            assert_eq!(ended, Some(code), "{from}: {said}");
+            let first = said.lines().next().unwrap_or_default();
+            let expected = checked
+                .lines()
+                .next()
+                .map(|line| format!("polyscene: {}", line.replacen("scene.xml", name, 1)));
+            assert_eq!(Some(first.to_owned()), expected, "{from}");
+        }
+    }
+}

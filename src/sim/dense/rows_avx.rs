@@ -1,7 +1,7 @@
-//! Four rows swept at once, where the processor has AVX2: all `unsafe` of the simulation is in this file.
+//! Four rows swept at once, where the processor has AVX: all `unsafe` of the simulation is in this file.
 //!
-//! Every lane calculates what [`one_by_one`] does, operation by operation, without fused ones, so that the bits are the
-//! same.
+//! Every lane calculates what [`one_by_one`] does, operation by operation, without fused ones, so that finite numbers have the
+//! same bits.
 #![allow(unsafe_code, reason = "asks for the processor's features, and reads and writes its wide registers")]
 
 use std::arch::x86_64::{
@@ -14,15 +14,15 @@ use super::stepped::Moving;
 
 /// One sweep over rows, or gives back what the processor cannot sweep so.
 pub(super) fn sweep<'a>(rows: &Rows, is_backward: bool, swept: Swept<'a>) -> Option<Swept<'a>> {
-    if !is_x86_feature_detected!("avx2") {
+    if !is_x86_feature_detected!("avx") {
         return Some(swept);
     }
-    // SAFETY: the processor has AVX2.
+    // SAFETY: the processor has AVX.
     unsafe { sweep_by_four(rows, is_backward, swept) };
     None
 }
 
-#[target_feature(enable = "avx2")]
+#[target_feature(enable = "avx")]
 fn sweep_by_four(rows: &Rows, is_backward: bool, Swept { impulses, changes, moving }: Swept<'_>) {
     let fours = rows.fours(impulses, changes);
     if is_backward {
@@ -36,7 +36,7 @@ fn sweep_by_four(rows: &Rows, is_backward: bool, Swept { impulses, changes, movi
     }
 }
 
-#[target_feature(enable = "avx2")]
+#[target_feature(enable = "avx")]
 #[inline]
 fn sweep_four(four: &Four, is_apart: bool, is_backward: bool, lanes: Lanes<'_>, moving: &mut [Moving]) {
     if is_apart {
@@ -46,7 +46,7 @@ fn sweep_four(four: &Four, is_apart: bool, is_backward: bool, lanes: Lanes<'_>, 
     }
 }
 
-#[target_feature(enable = "avx2")]
+#[target_feature(enable = "avx")]
 #[inline]
 fn at_once(four: &Four, Lanes { impulses, changes }: Lanes<'_>, moving: &mut [Moving]) {
     let [first, second] = four.ends;
@@ -77,7 +77,7 @@ fn at_once(four: &Four, Lanes { impulses, changes }: Lanes<'_>, moving: &mut [Mo
 }
 
 /// Rows as columns.
-#[target_feature(enable = "avx2")]
+#[target_feature(enable = "avx")]
 #[inline]
 fn transposed(rows: [__m256d; 4]) -> [__m256d; 4] {
     let (even, odd) = (_mm256_unpacklo_pd(rows[0], rows[1]), _mm256_unpackhi_pd(rows[0], rows[1]));
@@ -91,14 +91,14 @@ fn transposed(rows: [__m256d; 4]) -> [__m256d; 4] {
     ]
 }
 
-#[target_feature(enable = "avx2")]
+#[target_feature(enable = "avx")]
 #[inline]
 fn load(from: &[f64; 4]) -> __m256d {
     // SAFETY: four numbers lie there, and none needs to be aligned.
     unsafe { _mm256_loadu_pd(from.as_ptr()) }
 }
 
-#[target_feature(enable = "avx2")]
+#[target_feature(enable = "avx")]
 #[inline]
 fn store(to: &mut [f64; 4], four: __m256d) {
     // SAFETY: there is room for four numbers, and none needs to be aligned.
@@ -107,19 +107,27 @@ fn store(to: &mut [f64; 4], four: __m256d) {
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
+
+    use super::super::rows::Rows;
     use super::super::rows::tests::{mixed, swept};
+    use super::super::stepped::Contact;
     use super::sweep;
-    use crate::sim::dense::rows::Rows;
 
     #[test]
     fn four_at_once_have_the_bits_of_one_by_one() {
-        if !is_x86_feature_detected!("avx2") {
+        if !is_x86_feature_detected!("avx") {
             return;
         }
+        // With zeros of either sign too: bodies that just touch, along an axis.
+        let touching =
+            mixed().into_iter().map(|contact| Contact { normal: DVec3::NEG_Y, bound: -0.0, ..contact });
         let bits = |numbers: Vec<f64>| -> Vec<u64> { numbers.into_iter().map(f64::to_bits).collect() };
-        let at_once = swept(&mixed(), 7, |rows, is_backward, of| {
-            assert!(sweep(rows, is_backward, of).is_none(), "nothing was swept");
-        });
-        assert_eq!(bits(at_once), bits(swept(&mixed(), 7, Rows::sweep_one_by_one)));
+        for contacts in [mixed(), touching.collect()] {
+            let at_once = swept(&contacts, 7, |rows, is_backward, of| {
+                assert!(sweep(rows, is_backward, of).is_none(), "nothing was swept");
+            });
+            assert_eq!(bits(at_once), bits(swept(&contacts, 7, Rows::sweep_one_by_one)));
+        }
     }
 }
