@@ -275,7 +275,7 @@ pub(super) fn read_file(path: &Path) -> io::Result<Vec<u8>> {
     let file = File::open(path)?;
     let most = MAX_FILE_BYTES + 1;
     // One more than there is to read, so that the end is seen without more room. Streams say that they are empty.
-    let expected = file.metadata().map_or(0, |metadata| metadata.len() + 1);
+    let expected = file.metadata().map_or(0, |metadata| metadata.len().saturating_add(1));
     let mut bytes = Vec::with_capacity(expected.min(most) as usize);
     file.take(most).read_to_end(&mut bytes)?;
     Ok(bytes)

@@ -128,13 +128,12 @@ fn between(one: &Stepped, other: &Stepped) -> (DVec3, f64) {
 /// The bound that keeps bodies apart: they may come as near as they are. Those that overlap part no faster than they
 /// met, and where that is within `room` and slow, at a share of it: else they would tremble for ever, in and out by turns.
 fn landing(gap: f64, rate: f64, h: f64, (room, slow): (f64, f64)) -> f64 {
-    // Which case it is follows no pattern: chosen values are quicker than guessed branches.
-    let is_deep = gap <= -room;
-    let share = if -rate < slow { PARTING } else { 1.0 };
-    let closing = share * h * rate;
-    let parting = (h * rate).min(gap + room);
-    let way = if rate < 0.0 { closing } else { parting };
-    let nearest = if is_deep { gap } else { gap.max(way) };
-    let fastest = if is_deep { (-rate).max(0.0) } else { f64::INFINITY };
-    (-nearest / h).min(fastest)
+    if gap <= -room {
+        (-gap / h).min((-rate).max(0.0))
+    } else if rate < 0.0 {
+        let share = if -rate < slow { PARTING } else { 1.0 };
+        -gap.max(share * h * rate) / h
+    } else {
+        -gap.max((h * rate).min(gap + room)) / h
+    }
 }
