@@ -135,9 +135,16 @@ fn events(run: &Run) -> (Vec<Arc<EventRow>>, bool) {
 
 fn bodies(simulation: &Simulation) -> Vec<BodyFrame> {
     let states = simulation.dynamic_bodies().filter_map(|body| Some((body, simulation.state(body)?)));
-    states
-        .filter_map(|(body, state)| body_frame(simulation, body, &state, simulation.total_force(body)))
-        .collect()
+    let frames =
+        states.filter_map(|(body, state)| body_frame(simulation, body, &state, simulation.total_force(body)));
+    all_of(simulation, frames)
+}
+
+/// Frames of all dynamic bodies, in no more memory than they take.
+fn all_of(simulation: &Simulation, frames: impl Iterator<Item = BodyFrame>) -> Vec<BodyFrame> {
+    let mut all = Vec::with_capacity(simulation.dynamic_count());
+    all.extend(frames);
+    all
 }
 
 /// The bodies that were there at the moment shown, with their recorded motion and the forces of then.
@@ -147,11 +154,10 @@ pub(super) fn bodies_looked_up(run: &Run) -> Vec<BodyFrame> {
     let simulation = then.unwrap_or(&run.simulation);
     let moment = run.recording.at(run.cursor);
     let pieces = simulation.dynamic_bodies().filter_map(|body| Some((body, moment.piece(body)?)));
-    pieces
-        .filter_map(|(body, piece)| {
-            body_frame(simulation, body, &piece.at(time), simulation.force_on(body, piece, time))
-        })
-        .collect()
+    let frames = pieces.filter_map(|(body, piece)| {
+        body_frame(simulation, body, &piece.at(time), simulation.force_on(body, piece, time))
+    });
+    all_of(simulation, frames)
 }
 
 fn body_frame(

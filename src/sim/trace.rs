@@ -81,6 +81,9 @@ pub(super) struct Trace {
     sealed: usize,
 }
 
+/// Pieces for which room is kept from one portion of work to the next.
+const KEPT: usize = 1024;
+
 impl Piece {
     pub(super) fn new(path: Path<'_>) -> Self {
         let Segment { start, x, v, a, step, .. } = *path.segment;
@@ -179,6 +182,8 @@ impl Trace {
         if !self.begun.is_empty() {
             self.sealed = 0;
             self.begun.drain(..).for_each(each);
+            // The first portion has a piece of every body, later ones have few.
+            self.begun.shrink_to(KEPT);
         }
     }
 }

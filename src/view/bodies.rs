@@ -17,6 +17,7 @@ const LARGEST: f64 = 1e30;
 
 pub(super) fn add(stage: &Stage<'_>, list: &mut DrawList) {
     let plates = stage.bodies.iter().filter(|posed| matches!(posed.body.shape, Shape::Plane { .. })).count();
+    list.spheres.reserve(stage.bodies.len() - plates);
     let mut glass = Vec::new();
     for posed in &stage.bodies {
         match posed.body.shape {

@@ -91,13 +91,13 @@ pub fn collect(
             continue;
         }
         let (depth, open) = (path.len() - 1, is_open(path));
-        rows.push(Row::Named(Named {
+        rows.push(Row::Named(Box::new(Named {
             path: path.join("/"),
             depth,
             keys: content.keys.clone(),
             open,
             marks: Marks { hidden: !content.visible, locked: !content.free },
-        }));
+        })));
         if open {
             rows.extend(content.rows.iter().map(|row| row.at_depth(depth + 1)));
         }

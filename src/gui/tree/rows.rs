@@ -48,7 +48,8 @@ pub enum Row {
         grouped: usize,
         open: bool,
     },
-    Named(Named),
+    /// Apart: there are few of them, and many bodies.
+    Named(Box<Named>),
     /// How deep in groups it stands.
     Body {
         index: usize,
@@ -130,21 +131,20 @@ fn add_group(
     words: &[String],
     closed: &[Group],
 ) {
-    let (mut found, mut count, mut shown, mut grouped) = (Vec::new(), 0, 0, 0);
+    // a filter shows what it finds, also in groups that are closed
+    let open = !words.is_empty() || !closed.contains(&group);
+    let heading = rows.len();
+    rows.push(Row::Group { group, count: 0, shown: 0, grouped: 0, open });
+    let (mut count, mut shown, mut grouped) = (0, 0, 0);
     for (row, is_grouped, is_found) in all {
         count += 1;
         grouped += usize::from(is_grouped);
         shown += usize::from(is_found);
-        if is_found && !is_grouped {
-            found.push(row);
+        if open && is_found && !is_grouped {
+            rows.push(row);
         }
     }
-    // a filter shows what it finds, also in groups that are closed
-    let open = !words.is_empty() || !closed.contains(&group);
-    rows.push(Row::Group { group, count, shown, grouped, open });
-    if open {
-        rows.extend(found);
-    }
+    rows[heading] = Row::Group { group, count, shown, grouped, open };
 }
 
 fn matches(words: &[String], texts: &[&str]) -> bool {
