@@ -132,17 +132,15 @@ pub(super) fn free_unheld(model: &Model, state: &mut State) {
     });
 }
 
-/// Frees a captured body if the speed that an impact would give it carries it beyond what is captured.
-pub(super) fn free_if_struck(model: &Model, state: &mut State, body: u32, velocity: DVec3) {
+/// Frees a captured body if the speed that an impact would give it carries it beyond what is captured; whether it does.
+pub(super) fn free_if_struck(model: &Model, state: &mut State, body: u32, velocity: DVec3) -> bool {
     if !state.captured.contains(&body) {
-        return;
+        return false;
     }
     let x = state.segments[body as usize].x;
     let reach = reach(model, body);
     let stays = |attractor: Attractor| attractor.apoapsis(x, velocity) <= reach;
-    if !attractor_at(model, body, x).is_some_and(stays) {
-        state.captured.remove(&body);
-    }
+    !attractor_at(model, body, x).is_some_and(stays) && state.captured.remove(&body)
 }
 
 /// What kinetic and potential energy a body has more than if it stood at x, J.

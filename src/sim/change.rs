@@ -113,19 +113,28 @@ pub(super) fn add_custom(
     restart_all(model, state, &before, &[None]).map_err(|fault| EditRefused(fault.to_string()))
 }
 
-/// Removes a force added by [`add_custom`]; whether it was there. Copies, as for [`apply`].
+/// Whether a force was added by [`add_custom`].
+pub(super) fn has_custom(model: &Model, force: &Arc<dyn Force>) -> bool {
+    position_of_custom(model, force).is_some()
+}
+
+fn position_of_custom(model: &Model, force: &Arc<dyn Force>) -> Option<usize> {
+    let is_it = |entry: &ForceEntry| matches!(&entry.law, Law::Custom(other) if Arc::ptr_eq(other, force));
+    model.forces.iter().position(is_it)
+}
+
+/// Removes a force added by [`add_custom`], once. Copies, as for [`apply`].
 pub(super) fn remove_custom(
     model: &mut Model,
     state: &mut State,
     force: &Arc<dyn Force>,
-) -> Result<bool, EditRefused> {
-    let is_it = |entry: &ForceEntry| matches!(&entry.law, Law::Custom(other) if Arc::ptr_eq(other, force));
-    let Some(index) = model.forces.iter().position(is_it) else { return Ok(false) };
+) -> Result<(), EditRefused> {
     let before = Books::read(model, state);
-    model.forces.remove(index);
+    if let Some(index) = position_of_custom(model, force) {
+        model.forces.remove(index);
+    }
     plan_anew(model, state);
-    restart_all(model, state, &before, &[None]).map_err(|fault| EditRefused(fault.to_string()))?;
-    Ok(true)
+    restart_all(model, state, &before, &[None]).map_err(|fault| EditRefused(fault.to_string()))
 }
 
 /// What the changed scene needs.
@@ -218,6 +227,7 @@ fn add_body(
         return Ok(id);
     };
     let row = state.push_body(origin);
+    state.came.insert(row, state.now);
     debug_assert_eq!(row, index, "every dynamic body has its row in all columns");
     enter(model, state, index, state.now);
     Ok(id)

@@ -113,6 +113,7 @@ fn holds(stamps: &[u32], dense: Option<&Dense>, predicted: &Predicted) -> bool {
 /// Begins segments for all bodies at `state.now` and predicts everything: any of them may be concerned.
 pub(super) fn begin_all(model: &Model, state: &mut State) -> Result<(), Fault> {
     free_unheld(model, state);
+    dense::forget_removed(model, state);
     prepare_groups(model, state);
     let starts: Vec<Start> = model
         .present()

@@ -118,7 +118,8 @@ pub struct Event {
     pub vn_before: f64,
     pub vn_after: f64,
     /// Number of the impact group, from 1: the contacts of bodies that touch are resolved together and share
-    /// it, one row each; stepped bodies have the number that they entered with. 0 for other events.
+    /// it, one row each; stepped bodies have the number that they entered with, and none if an edit woke them. 0 for other
+    /// events.
     pub group: u64,
     /// Which row of its group this is, from 1, and how many there are; both 0 without a group.
     pub row_in_group: [u32; 2],

@@ -79,7 +79,7 @@ pub(super) fn begin_gripping(
     };
     let is_still = motions.iter().all(|motion| *motion == DVec3::ZERO)
         && driven.motions.iter().all(|a| a.length() <= PRESSURE_ROUNDING * driven.size)
-        && !model.forces.iter().any(|force| matches!(force.law, super::force::Law::Custom(_)));
+        && !model.may_depend_on_time();
     let gone = if is_still {
         Some((still(island, time), Vec::new()))
     } else {

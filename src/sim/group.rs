@@ -16,6 +16,7 @@
 use std::collections::BTreeSet;
 
 use glam::DVec3;
+use rustc_hash::FxHashSet;
 
 use super::body::BodyId;
 use super::constraint::enter_none;
@@ -79,24 +80,21 @@ impl Group {
     pub fn gather(model: &Model, state: &State, time: f64, first: Pair, also: &mut Vec<Pair>) -> Self {
         let mut pairs = vec![first];
         let mut ids: Vec<u32> = first.dynamic().collect();
+        let mut seen: FxHashSet<u32> = ids.iter().copied().collect();
         let again = ids.iter().any(|body| hit_just_now(model, state, *body, time));
         let mut next = 0;
         while let Some(body) = ids.get(next).copied() {
             let near = if again { near(model, state, body) } else { Vec::new() };
             for pair in touching(model, state, body, time, &near, also) {
-                if !pairs.contains(&pair) {
-                    pairs.push(pair);
-                }
-                for other in pair.dynamic() {
-                    if !ids.contains(&other) {
-                        ids.push(other);
-                    }
-                }
+                pairs.push(pair);
+                ids.extend(pair.dynamic().filter(|other| seen.insert(*other)));
             }
             next += 1;
         }
         ids.sort_unstable();
         pairs.sort_unstable();
+        // Both bodies of a pair find it.
+        pairs.dedup();
         let bodies = Island::at(model, state, ids, time);
         let members = pairs.into_iter().map(|pair| member(model, state, &bodies, pair, time)).collect();
         let fastest = bodies.v.iter().map(|v| v.length()).fold(0.0, f64::max);
@@ -190,10 +188,18 @@ impl Group {
 
     /// The other contacts that each one acts on.
     fn couplings(&self) -> Vec<Vec<usize>> {
-        let count = self.members.len();
-        (0..count)
-            .map(|k| (0..count).filter(|other| *other != k && self.couples(k, *other)).collect())
-            .collect()
+        let mut of_bodies: Vec<Vec<usize>> = vec![Vec::new(); self.bodies.ids.len()];
+        let bodies = |k: usize| std::iter::once(self.members[k].link.a).chain(self.members[k].link.b);
+        let all = 0..self.members.len();
+        all.clone().for_each(|k| bodies(k).for_each(|body| of_bodies[body].push(k)));
+        let coupled = |k: usize| {
+            let mut others: Vec<usize> = bodies(k).flat_map(|body| of_bodies[body].iter().copied()).collect();
+            others.sort_unstable();
+            others.dedup();
+            others.retain(|other| *other != k && self.couples(k, *other));
+            others
+        };
+        all.map(coupled).collect()
     }
 
     /// Whether two contacts share a moving body on which an impulse at one changes what closes at the other, by more

@@ -39,8 +39,9 @@ pub(super) fn resolve(
     gap: &Gap,
     also: &mut Vec<Pair>,
 ) -> Result<(), Fault> {
+    let mut freed = Vec::new();
     for struck in std::iter::once(&pair).chain(also.iter()) {
-        free_struck(model, state, time, *struck);
+        free_struck(model, state, time, *struck, &mut freed);
     }
     if let Some(least) = least_crowd_of(model, state, pair, gap, time)
         && enter_crowd(model, state, pair, least, time)?
@@ -72,7 +73,7 @@ pub(super) fn resolve(
         return enter(model, state, &group.bodies.ids, time);
     }
     list(model, state, time, &group, kind);
-    finish(model, state, time, group)
+    finish(model, state, time, group, &freed)
 }
 
 /// Of how many moving bodies the component of an impact must be to be stepped; `None` if it is not. Of an elastic pair
@@ -138,8 +139,8 @@ fn collapse(model: &Model, state: &mut State, group: &mut Group) -> bool {
     report_collapse(state, collapsed)
 }
 
-/// Frees captured bodies that an impact would throw out.
-fn free_struck(model: &Model, state: &mut State, time: f64, pair: Pair) {
+/// Frees captured bodies that an impact would throw out, if no other held them; adds them to a list.
+fn free_struck(model: &Model, state: &mut State, time: f64, pair: Pair, freed: &mut Vec<u32>) {
     let Some(other) = pair.second() else { return };
     if !pair.dynamic().any(|body| state.captured.contains(&body)) {
         return;
@@ -148,7 +149,9 @@ fn free_struck(model: &Model, state: &mut State, time: f64, pair: Pair) {
     let reduced = reduced_mass(model.mass(pair.first()), model.mass(other));
     let Blow { impulse, .. } = blow(reduced, restitution_at(model, pair, -gap.rate), -gap.rate);
     for (body, impulse) in [(pair.first(), -impulse), (other, impulse)] {
-        free_if_struck(model, state, body, impulse / model.mass(body) * gap.normal);
+        if free_if_struck(model, state, body, impulse / model.mass(body) * gap.normal) {
+            freed.push(body);
+        }
     }
 }
 
@@ -220,13 +223,17 @@ fn list(model: &Model, state: &mut State, time: f64, group: &Group, kind: EventK
     }
 }
 
-/// Books what a group lost and was given, settles what has come to rest, and lets its bodies go on.
-fn finish(model: &Model, state: &mut State, time: f64, mut group: Group) -> Result<(), Fault> {
+/// Books what a group lost and was given, settles what has come to rest, and lets its bodies go on. Those that were freed for
+/// it and not moved by it stay captured.
+fn finish(model: &Model, state: &mut State, time: f64, mut group: Group, freed: &[u32]) -> Result<(), Fault> {
     let before: Vec<DVec3> = group.bodies.ids.iter().map(|body| state.velocity(*body, time)).collect();
     group.forget_rounding(&before);
     let settling = settle(model, &mut group);
     group.forget_rounding(&before);
     book(state, &group, &before);
+    let moved = before.iter().zip(&group.bodies.v).map(|(old, new)| old != new);
+    let unmoved = group.bodies.ids.iter().zip(moved).filter(|(body, moved)| !moved && freed.contains(body));
+    state.captured.extend(unmoved.map(|(body, _)| *body));
     let mut changed = changed(&group, &before, &settling);
     if model.plan.spin {
         book_torques(state, &group);

@@ -8,7 +8,6 @@ use glam::DVec3;
 use super::account::angular;
 use super::constraint::{enter_none, enter_none_from, hold_from, stay_on};
 use super::event::EventKind;
-use super::force::{ForceEntry, Law};
 use super::geometry::{BodiesAt, part_of, sees_part, surface_of};
 use super::ledger::record_contact;
 use super::link::{Link, Solved};
@@ -331,9 +330,7 @@ fn book(state: &mut State, island: &Island, before: &[DVec3]) {
 
 /// Whether an island at rest stays so: nothing about its forces depends on time.
 fn is_still(model: &Model, island: &Island, accelerations: &[DVec3]) -> bool {
-    let depends_on_time = |force: &ForceEntry| matches!(force.law, Law::Custom(_));
-    island.v.iter().chain(accelerations).all(|way| *way == DVec3::ZERO)
-        && !model.forces.iter().any(depends_on_time)
+    island.v.iter().chain(accelerations).all(|way| *way == DVec3::ZERO) && !model.may_depend_on_time()
 }
 
 /// Whether nothing about the contacts and forces of an island will change along parabolas.

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::body::{Bodies, Body, BodyId, Identity};
-use super::force::{ForceEntry, Subject};
+use super::force::{ForceEntry, Law, Subject};
 use super::method::Method;
 use super::place::Place;
 use super::report::Plan;
@@ -91,6 +91,11 @@ impl Model {
     /// What the applied forces give a body, m/s².
     pub fn applied_acceleration(&self, subject: &Subject<'_>) -> DVec3 {
         self.applied_force(subject) / subject.mass
+    }
+
+    /// Whether a force may depend on the time, as one of the user's own may: what rests under it may move later.
+    pub fn may_depend_on_time(&self) -> bool {
+        self.forces.iter().any(|force| matches!(force.law, Law::Custom(_)))
     }
 
     /// Whether flight is a parabola: all forces are uniform.

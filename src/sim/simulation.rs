@@ -358,6 +358,9 @@ impl Simulation {
     /// one that is refused changes nothing, the others are made. Where nothing can go on after them, all are refused.
     pub fn apply_all(&mut self, edits: &[SimEdit]) -> Vec<Result<(), EditRefused>> {
         let mut outcomes = Vec::with_capacity(edits.len());
+        if edits.is_empty() {
+            return outcomes;
+        }
         if let Err(refused) = self.change(|model, state| change::apply(model, state, edits, &mut outcomes)) {
             outcomes.iter_mut().filter(|outcome| outcome.is_ok()).for_each(|outcome| {
                 *outcome = Err(refused.clone());
@@ -373,7 +376,10 @@ impl Simulation {
 
     /// Removes a force added by [`Self::add_force`] now; whether it was there.
     pub fn remove_force(&mut self, force: &Arc<dyn Force>) -> Result<bool, EditRefused> {
-        self.change(|model, state| change::remove_custom(model, state, force))
+        if !change::has_custom(&self.model, force) {
+            return Ok(false);
+        }
+        self.change(|model, state| change::remove_custom(model, state, force)).map(|()| true)
     }
 
     pub fn snapshot(&self) -> Snapshot {

@@ -33,6 +33,8 @@ pub(super) struct State {
     /// Grows with every new segment of the body, so that old predictions can be told.
     pub stamps: Vec<u32>,
     pub registered: Vec<TileRange>,
+    /// When bodies came that were not there at the start, s: those after them in the columns came later.
+    pub came: BTreeMap<u32, f64>,
     /// How bodies turn; empty where nothing rubs.
     pub turns: Vec<Turn>,
     /// Integrated motion; empty while all forces are uniform and no surface is round.
@@ -105,6 +107,7 @@ impl State {
             segments: Vec::with_capacity(origins.len()),
             stamps: Vec::with_capacity(origins.len()),
             registered: Vec::with_capacity(origins.len()),
+            came: BTreeMap::new(),
             turns: Vec::new(),
             fields: Vec::new(),
             plunges: BTreeMap::new(),
@@ -193,14 +196,15 @@ impl State {
         }
     }
 
-    /// Room for turns where the scene needs them. Bodies that had none kept their spin from the start.
+    /// Room for turns where the scene needs them. Bodies that had none kept their spin from when they came.
     pub fn make_turns(&mut self, model: &Model) {
         if !model.plan.spin {
             return;
         }
         for body in self.turns.len()..self.segments.len() {
             let (orientation, spin) = model.dynamic(body as u32).turn_at_start();
-            self.turns.push(Turn::steady(0.0, orientation, spin).steady_from(self.now));
+            let came = self.came.get(&(body as u32)).copied().unwrap_or(0.0);
+            self.turns.push(Turn::steady(came, orientation, spin).steady_from(self.now));
         }
     }
 

@@ -124,6 +124,27 @@ fn a_hard_impact_frees_a_captured_ball() {
     }
 }
 
+/// Two balls that strike a captured one from both sides at once would each throw it out alone; together they leave it where
+/// it is, and it stays captured. It once hovered there as if it flew, and nothing drove it.
+#[test]
+fn what_is_struck_from_both_sides_at_once_stays_captured() {
+    let mut sim = simulation(&held(1e-3));
+    let (events, ..) = followed(&mut sim, 0.1);
+    assert_eq!(count(&events, EventKind::Captured), 1);
+    let still = state_of(&sim, 1);
+    let striking = |id: i64, side: f64| {
+        let ball = ball(id, still.position + DVec3::Y * side, DVec3::NEG_Y * (300.0 * side));
+        SimEdit::AddBody(Box::new(ball.radius(0.05).bounce(1.0)))
+    };
+    assert!(sim.apply_all(&[striking(2, 1.0), striking(3, -1.0)]).iter().all(Result::is_ok));
+    let (events, energy, momentum) = followed(&mut sim, 0.2);
+    assert!(count(&events, EventKind::Impact) >= 2, "{events:?}");
+    let struck = state_of(&sim, 1);
+    assert_eq!((struck.position, struck.velocity), (still.position, DVec3::ZERO));
+    assert_eq!(struck.contact, ContactState::Rest);
+    assert!(energy <= 1e-10 && momentum <= 1e-9, "{energy:e} {momentum:e}");
+}
+
 #[test]
 fn an_edit_of_the_attractor_frees_what_it_holds() {
     let scene = held(1e-6).gravity(-9.8);

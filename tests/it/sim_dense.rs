@@ -1,13 +1,14 @@
 //! Stepped groups: heaps come to rest, wake, gain nothing, and depend on nothing but the scene.
 
+use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 use glam::{DVec3, dvec3};
-use polyscene::scene::{NodeKey, Scene};
+use polyscene::scene::{self, ForceKind, NodeKey, Scene};
 use polyscene::sim::{BodyRef, ContactState, Event, EventKind, Force, SimEdit, Simulation, Subject};
 use polyscene::study::Random;
 
-use crate::common::build::{Build, Shaped, ball, empty};
+use crate::common::build::{Build, Shaped, ball, empty, plate};
 use crate::common::contact_scenes::{ContactScene, scaled};
 use crate::common::drive::{Sampling, advance, assert_same_bits, run, simulation, watch};
 use crate::common::heaps::{BOX, GRAVITY, Heap, RADIUS};
@@ -368,4 +369,65 @@ fn a_frozen_heap_wakes_when_gravity_changes_and_rests_again() {
     sim.apply(&SimEdit::ChangeForce(Box::new(force))).expect("it changes");
     watched(&heap, &mut sim, &scene, 12.0);
     assert_eq!(count_of(&sim, ContactState::Rest), 27);
+}
+
+/// A ball of a heap removed in one go with a force that lets a rubbing ball enter steps at once: nothing meets it any more. It
+/// was listed with the others once more, and pushed them.
+#[test]
+fn who_is_removed_from_a_heap_is_in_no_list_any_more() {
+    let mut scene = Heap::of(27, 0.3, 3).scene();
+    let floor = plate(20_000, dvec3(6.0, 1.0, 6.0), dvec3(-FRAC_PI_2, 0.0, 0.0), 0.5, 0.5).bounce(0.0);
+    let lone = ball(20_001, dvec3(6.0, 1.0 + RADIUS, 6.0), dvec3(0.3, 0.0, 0.0)).radius(RADIUS).bounce(0.0);
+    scene = scene.body(floor).body(lone);
+    for body in &mut scene.bodies {
+        (body.roughness.friction, body.roughness.rolling) = (0.5, 1e-3);
+    }
+    let gone = scene.bodies.iter().find(|body| body.id == 1).expect("a ball").key;
+    let mut sim = simulation(&scene);
+    advance(&mut sim, 0.6, Sampling::Every(0.1));
+    let body = sim.find(gone).expect("it is there");
+    let is_pushed = |sim: &Simulation| {
+        sim.contact_forces(usize::MAX).iter().any(|contact| contact.a == body || contact.b == body)
+    };
+    assert!(sim.stepped().is_some() && is_pushed(&sim));
+    let air = scene::Force::new(5, ForceKind::Drag { density: 1e-3 });
+    let edits = [SimEdit::Remove(gone), SimEdit::AddForce(Box::new(air))];
+    assert!(sim.apply_all(&edits).iter().all(Result::is_ok));
+    watch(&mut sim, 1.0, LOOK, |sim, _| assert!(!is_pushed(sim), "t {}", sim.time()));
+}
+
+/// Gravity that turns over from downwards to the side, from a time on.
+#[derive(Debug)]
+struct Turning {
+    from: f64,
+}
+
+impl Force for Turning {
+    fn force(&self, on: &Subject<'_>) -> DVec3 {
+        let turned = (on.time - self.from).clamp(0.0, 1.0);
+        -GRAVITY * on.mass * dvec3(turned * turned, turned * turned - 1.0, 0.0)
+    }
+
+    fn potential(&self, _: &Subject<'_>) -> Option<f64> {
+        None
+    }
+}
+
+/// What lies still under a force that depends on time is not left lying: it falls to the side when that does.
+#[test]
+fn a_heap_under_a_force_of_time_does_not_rest_for_ever() {
+    let heap = Heap { width: 0.6, ..Heap::of(12, 0.2, 1) };
+    let mut scene = heap.scene();
+    scene.forces.clear();
+    let mut sim = simulation(&scene);
+    sim.add_force(Arc::new(Turning { from: 4.0 })).expect("a sound force");
+    advance(&mut sim, 4.0, Sampling::Every(0.5));
+    assert!(sim.energy().kinetic <= 1e-6, "{:?}", sim.energy());
+    let middle = |sim: &Simulation| {
+        let states = sim.dynamic_bodies().filter_map(|body| sim.state(body));
+        states.map(|state| state.position.x).sum::<f64>() / heap.balls as f64
+    };
+    let before = middle(&sim);
+    advance(&mut sim, 6.0, Sampling::Every(0.5));
+    assert!(middle(&sim) > before + RADIUS, "from {before} to {} m", middle(&sim));
 }

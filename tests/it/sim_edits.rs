@@ -1,14 +1,15 @@
 //! Bodies and forces changed while a simulation runs, at stamped times.
 
 use std::f64::consts::FRAC_PI_2;
+use std::sync::Arc;
 
-use glam::{DVec3, dvec3};
+use glam::{DQuat, DVec3, dvec3};
 use polyscene::scene::{Force, ForceKind, NodeKey, Roughness, Scene};
-use polyscene::sim::{EventKind, SimEdit, Simulation};
+use polyscene::sim::{EventKind, SimEdit, Simulation, Subject};
 
 use crate::common::build::{Build, Shaped, ball, empty, plate, static_ball, thesis};
 use crate::common::drive::{
-    Run, SAMPLINGS, Sampling, advance, assert_same_bits, finished, impacts, simulation, state_of,
+    Run, SAMPLINGS, Sampling, advance, assert_same_bits, finished, impacts, run, simulation, state_of,
 };
 
 /// Runs a scene with edits at stamped times, in any way of sampling between them.
@@ -226,6 +227,51 @@ fn the_same_edits_give_the_same_bits() {
             let (_, got) = run_edited(&scene.clone().tiles([tiles; 3]), 8.0, sampling, &edits);
             assert_same_bits(&expected, &got, &format!("{sampling:?}, {tiles}³ tiles"));
         }
+    }
+}
+
+/// An edit of nothing is none: bodies do not go on anew, which would round once more.
+#[test]
+fn nothing_to_change_changes_no_bit() {
+    let (scene, sampling) = (thesis(), Sampling::Every(0.25));
+    let mut sim = simulation(&scene);
+    let mut events = advance(&mut sim, 1.7, sampling);
+    assert!(sim.apply_all(&[]).is_empty());
+    let absent: Arc<dyn polyscene::sim::Force> = Arc::new(Nothing);
+    assert_eq!(sim.remove_force(&absent), Ok(false));
+    events.extend(advance(&mut sim, 4.0, sampling));
+    assert_same_bits(&run(&scene, 4.0, sampling), &finished(&sim, events), "edits of nothing");
+}
+
+#[derive(Debug)]
+struct Nothing;
+
+impl polyscene::sim::Force for Nothing {
+    fn force(&self, _: &Subject<'_>) -> DVec3 {
+        DVec3::ZERO
+    }
+
+    fn potential(&self, _: &Subject<'_>) -> Option<f64> {
+        Some(0.0)
+    }
+}
+
+/// A body added while it runs begins to turn when it comes, also where only a later edit lets bodies rub.
+#[test]
+fn an_added_body_turns_from_when_it_comes() {
+    for is_rough in [true, false] {
+        let lying = ball(1, dvec3(2.0, 5.0, 5.0), DVec3::ZERO).friction(if is_rough { 0.5 } else { 0.0 });
+        let mut sim = simulation(&empty().body(lying));
+        advance(&mut sim, 3.0, Sampling::Every(1.0));
+        let added = ball(2, dvec3(8.0, 5.0, 5.0), DVec3::ZERO).spin(DVec3::Z).friction(0.5);
+        sim.apply(&SimEdit::AddBody(Box::new(added))).expect("a sound body");
+        advance(&mut sim, 4.0, Sampling::Every(1.0));
+        let rough = Roughness { friction: 0.5, ..Roughness::default() };
+        sim.apply(&SimEdit::Roughness(NodeKey(1), rough)).expect("it is there");
+        advance(&mut sim, 4.5, Sampling::Every(1.0));
+        let turn = state_of(&sim, 2).turn.expect("bodies rub now");
+        let expected = DQuat::from_rotation_z(1.5);
+        assert!(turn.orientation.angle_between(expected) <= 1e-7, "{turn:?}");
     }
 }
 

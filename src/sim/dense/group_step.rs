@@ -93,10 +93,6 @@ fn meet_before(model: &Model, state: &State, (body, member): (u32, u32), time: f
 /// Wakes all that lies still, and steps all that is stepped anew: after an edit.
 pub(in crate::sim) fn wake_all(model: &Model, state: &mut State, time: f64) -> Result<(), Fault> {
     with_dense(model, state, time, |state, dense| {
-        forget_removed(model, dense);
-        // The new list finds anew who is to join.
-        dense.waiting.clear();
-        dense.is_list_stale = true;
         let frozen: Vec<u32> = (0..)
             .zip(&dense.roles)
             .filter(|(_, role)| matches!(role, Role::Frozen(_)))
@@ -109,14 +105,17 @@ pub(in crate::sim) fn wake_all(model: &Model, state: &mut State, time: f64) -> R
     .map(|_| ())
 }
 
-/// Forgets bodies that an edit has removed.
-fn forget_removed(model: &Model, dense: &mut Dense) {
+/// Forgets bodies that an edit has removed, before any other goes on, and who waits to join: the next list finds that anew.
+pub(in crate::sim) fn forget_removed(model: &Model, state: &mut State) {
+    let Some(dense) = &mut state.dense else { return };
+    dense.waiting.clear();
     let is_gone = |body: u32| !model.dynamic(body).present;
     dense.members.retain(|member| !is_gone(member.body));
     for (_, role) in (0..).zip(&mut dense.roles).filter(|(body, _)| is_gone(*body)) {
         dense.frozen -= usize::from(matches!(role, Role::Frozen(_)));
         *role = Role::Outside;
     }
+    dense.renumber();
 }
 
 fn take_over(model: &Model, state: &mut State, seeds: &[u32], time: f64, is_news: bool) -> Result<(), Fault> {

@@ -39,10 +39,11 @@ pub(in crate::sim) fn component(
                 see(other, &mut bodies);
             }
         }
-        let (at, reach) = (state.position(body, time), (1.0 + SAME_COMPONENT) * model.radius(body));
-        within(model, state, at, reach, |other| other != body, &mut found);
+        let (at, radius) = (state.position(body, time), model.radius(body));
+        within(model, state, at, (1.0 + SAME_COMPONENT) * radius, |other| other != body, &mut found);
         for other in found.drain(..).filter_map(BodyId::dynamic) {
-            let reach = reach + model.radius(other);
+            let other_radius = model.radius(other);
+            let reach = radius + other_radius + SAME_COMPONENT * radius.min(other_radius);
             if (state.position(other, time) - at).length_squared() <= reach * reach {
                 see(other, &mut bodies);
             }

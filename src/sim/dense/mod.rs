@@ -40,7 +40,7 @@ pub(super) use activity::{
 };
 pub(super) use clock::{find_step, set_step, step_at};
 pub(super) use data::{Dense, Role};
-pub(super) use group_step::{enter, next_step, reach, step, wake_all};
+pub(super) use group_step::{enter, forget_removed, next_step, reach, step, wake_all};
 pub(super) use membership::component;
 pub(super) use tolerance::{LARGE_ISLAND, SMALLEST_CROWD};
 pub(super) use view::{contact_forces, stepped_bodies};

@@ -103,7 +103,7 @@ pub(super) fn is_still(
         kinetic += 0.5 * mass * drift(&state.segments[body.body as usize], time).length_squared();
         scale += mass * body.drive * radius;
     }
-    is_still && kinetic <= STILL_ENERGY * scale
+    is_still && kinetic <= STILL_ENERGY * scale && !model.may_depend_on_time()
 }
 
 /// Velocity of a body in the middle of the step that ends at a time, m/s. At both ends of it what lies still rises and

@@ -175,7 +175,7 @@ pub(super) const WORK_OF_CUBE: f64 = 1e-3;
 pub(super) const HALF_LIFE_OF_WORK: f64 = 64.0;
 pub(super) const TOO_MUCH_WORK: f64 = 128.0;
 
-/// Bodies nearer than this, in radii, are of one component.
+/// Bodies nearer than this, in radii of the smaller, are of one component.
 pub(super) const SAME_COMPONENT: f64 = 1e-3;
 
 // Leaving.

@@ -163,9 +163,8 @@ fn integrated(
 
 /// What bounds the steps of the integrators.
 pub(super) fn limits(model: &Model) -> Limits {
-    let is_custom = model.forces.iter().any(|force| matches!(force.law, Law::Custom(_)));
     Limits {
         tolerance: model.params.field_tolerance,
-        longest: if is_custom { LONGEST_STEP } else { FOR_EVER },
+        longest: if model.may_depend_on_time() { LONGEST_STEP } else { FOR_EVER },
     }
 }
