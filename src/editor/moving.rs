@@ -28,6 +28,11 @@ impl Session {
             TravelCommand::BringBack => {
                 self.settle();
                 self.run.bring_back(self.doc.history.document());
+                if self.needs_reset() {
+                    let text =
+                        "The edit is out of the run and still in the scene: undo takes it out of that too";
+                    self.talk.notices.push(Notice::info(text));
+                }
             }
         }
         Outcome::Done

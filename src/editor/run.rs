@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::live::{Waiting, live_change, waits};
+use super::scenes::{Scenes, drawn};
 use super::talk::Talk;
 use super::travel::Way;
 use super::{Notice, Playback};
@@ -36,6 +37,8 @@ pub(super) struct Run {
     pub shown_event: Option<Arc<EventRow>>,
     /// The scene that the runner runs; `None` when it has none.
     pub running: Option<Running>,
+    /// What ran before each edit.
+    scenes: Scenes,
     /// What it ran before its start was edited, while that can be brought back.
     replaced: Option<Running>,
     /// What edits touched that have not reached the runner yet.
@@ -55,6 +58,34 @@ pub(super) struct Running {
     pub waiting: Waiting,
 }
 
+/// A scene that ran at some moment.
+#[derive(Clone, Debug)]
+pub struct Ran {
+    scene: Arc<Scene>,
+    /// Whether edits came after it.
+    is_past: bool,
+}
+
+impl Ran {
+    /// Whether both are of the same scene.
+    pub fn is(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.scene, &other.scene) && self.is_past == other.is_past
+    }
+}
+
+impl Running {
+    /// What of a document runs otherwise now.
+    fn wait_for(&mut self, document: &Document) {
+        let Some(scene) = document.scene() else { return };
+        let keys = |scene: &Scene| {
+            let bodies = scene.bodies.iter().map(|body| body.key);
+            bodies.chain(scene.forces.iter().map(|force| force.key)).collect::<Vec<_>>()
+        };
+        let keys = [keys(&self.scene), keys(scene)].concat().into_iter().collect();
+        self.waiting = waits(&self.scene, scene, &Touched { keys, ..Touched::default() });
+    }
+}
+
 impl Run {
     pub fn new(runner: Box<dyn Runner>, playback: Playback) -> Self {
         Self {
@@ -70,6 +101,7 @@ impl Run {
             playback,
             shown_event: None,
             running: None,
+            scenes: Scenes::default(),
             replaced: None,
             pending: Touched::default(),
             settling: None,
@@ -133,6 +165,7 @@ impl Run {
         }
         if let Some(reason) = news(&self.frame.refused, &frame.refused) {
             talk.notices.push(Notice::warning(format!("Not applied to the running simulation: {reason}")));
+            self.scenes.refused(frame);
             // The edit is in the document and waits for the start.
             if let Some(running) = &mut self.running {
                 running.waiting.refused = true;
@@ -179,6 +212,9 @@ impl Run {
             }
             (Some(running), Some(scene)) => {
                 let change = live_change((&running.scene, &running.waiting), &scene, &touched);
+                if !change.edits.is_empty() {
+                    self.scenes.edit(&running.scene, &change.edits, &self.frame);
+                }
                 let speed_changed = running.scene.time_speed != scene.time_speed;
                 running.edited |= !change.edits.is_empty();
                 running.waiting = change.waiting;
@@ -214,6 +250,7 @@ impl Run {
     }
 
     fn begin(&mut self, command: u64, document: &Document, scene: Arc<Scene>) {
+        self.scenes = Scenes::default();
         self.running =
             Some(Running { scene, document: document.clone(), edited: false, waiting: Waiting::default() });
         let can_bring_back = self.replaced.is_some();
@@ -223,18 +260,36 @@ impl Run {
 
     /// Takes the last edit in the past out of the run, or that of its start.
     pub fn bring_back(&mut self, document: &Document) {
-        let Some(mut before) = self.replaced.take() else { return self.go_back(RunCommand::BringBack) };
-        if let Some(scene) = document.scene() {
-            let keys = |scene: &Scene| {
-                let bodies = scene.bodies.iter().map(|body| body.key);
-                bodies.chain(scene.forces.iter().map(|force| force.key)).collect::<Vec<_>>()
-            };
-            let keys = [keys(&before.scene), keys(scene)].concat().into_iter().collect();
-            before.waiting = waits(&before.scene, scene, &Touched { keys, ..Touched::default() });
-        }
+        let Some(mut before) = self.replaced.take() else {
+            self.go_back(RunCommand::BringBack);
+            if let (Some(running), Some(scene)) = (&mut self.running, self.scenes.bring_back()) {
+                running.scene = scene;
+                running.wait_for(document);
+            }
+            return;
+        };
+        before.wait_for(document);
         self.running = Some(before);
         let command = self.send(RunCommand::BringBack);
         self.begin_anew(command, self.frame_at_start());
+    }
+
+    /// What to draw instead of the document's scene, and whether that is of the past; `None` for that itself.
+    pub fn scene_then(&self, wanted: &Arc<Scene>) -> Option<Ran> {
+        let running = self.running.as_ref().filter(|_| !self.playback.is_at_start())?;
+        let past = self.scenes.then(&self.frame);
+        let scene = past.unwrap_or(&running.scene);
+        let then = Ran { scene: scene.clone(), is_past: past.is_some() };
+        (!Arc::ptr_eq(scene, wanted)).then_some(then)
+    }
+
+    pub fn drawn(&self, wanted: &Arc<Scene>, then: &Ran) -> Arc<Scene> {
+        drawn(wanted, &then.scene, then.is_past, &self.pending)
+    }
+
+    /// What a body was called that an edit has removed from the run.
+    pub fn former_name(&self, key: NodeKey) -> Option<&str> {
+        self.scenes.former_name(key)
     }
 
     fn unload(&mut self) {

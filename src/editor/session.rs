@@ -7,7 +7,7 @@ use super::dialogue::{Question, Request};
 use super::kept::Kept;
 use super::live::differs;
 use super::open_document::OpenDocument;
-use super::run::Run;
+use super::run::{Ran, Run};
 use super::talk::Talk;
 use super::travel::Travel;
 use super::{EditorSettings, Gesture, Notice, Playback, Selection};
@@ -130,6 +130,22 @@ impl Session {
     /// a body must show at once. Elsewhere they are where the frame says.
     pub fn shows_start(&self) -> bool {
         self.run.playback.is_at_start()
+    }
+
+    /// The scene that ran at what is shown, where that is not the document's: before an edit, or while changes wait for a
+    /// reset.
+    pub fn scene_then(&self) -> Option<Ran> {
+        self.run.scene_then(&self.document().scene_shared()?)
+    }
+
+    /// What to draw of a scene that ran: bodies as they were, named and coloured as the document has it.
+    pub fn drawn(&self, then: &Ran) -> Option<Arc<Scene>> {
+        Some(self.run.drawn(&self.document().scene_shared()?, then))
+    }
+
+    /// What a body was called that an edit has removed from the run.
+    pub fn former_name(&self, key: NodeKey) -> Option<&str> {
+        self.run.former_name(key)
     }
 
     /// Whether the newest frame does not show yet all that the simulation was told.

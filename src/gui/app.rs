@@ -27,7 +27,7 @@ use super::xml::XmlPane;
 use super::{menu, shortcuts, status, theme};
 use crate::design::TOOLS;
 use crate::editor::{
-    Action, Command, Notice, Outcome, Request, Session, SessionCommand, Storage, Verified, WindowCommand,
+    Action, Command, Notice, Outcome, Ran, Request, Session, SessionCommand, Storage, Verified, WindowCommand,
 };
 use crate::record::Runner;
 use crate::scene::shown_path;
@@ -45,6 +45,8 @@ pub struct Parts {
 pub struct App {
     pub(super) session: Session,
     shown: Option<Shown>,
+    /// What the views show where another scene ran than the document's.
+    then: Option<(Ran, Shown)>,
     next_revision: u64,
     opened: u64,
     outbox: Outbox,
@@ -106,6 +108,7 @@ impl App {
             opened: session.opened_count(),
             session,
             shown: None,
+            then: None,
             next_revision: 1,
             outbox: Outbox::default(),
             views: Views::new(canvas, &remembered.views),
@@ -204,6 +207,7 @@ impl App {
             self.shown = scene.map(|scene| Shown::new(scene, self.next_revision));
             self.next_revision += 1;
         }
+        self.look_at_past(same);
         if self.opened != self.session.opened_count() {
             self.opened = self.session.opened_count();
             // the card is for the program's start; who asks for a new scene wants that
@@ -211,6 +215,23 @@ impl App {
             self.views.opened();
             self.tree.opened();
             self.timeline.opened();
+        }
+    }
+
+    /// Takes what ran at the moment shown; `same`: the document's scene is as before.
+    fn look_at_past(&mut self, same: bool) {
+        let then = self.session.scene_then();
+        let is_known = match (&self.then, &then) {
+            (Some((known, _)), Some(then)) => same && known.is(then),
+            (None, None) => true,
+            _ => false,
+        };
+        if !is_known {
+            self.then = then.and_then(|then| {
+                let scene = self.session.drawn(&then)?;
+                Some((then, Shown::new(scene, self.next_revision)))
+            });
+            self.next_revision += 1;
         }
     }
 
@@ -249,8 +270,9 @@ impl App {
             self.timeline.show(ui, &context);
         });
         let shown_views: [bool; 4] = std::array::from_fn(|index| self.views.is_shown(index));
+        let then = self.then.as_ref().map(|(_, shown)| shown);
         // a part is seen in its place before it is made
-        let preview = AppContext { shown: self.dialogs.preview().or(context.shown), ..context };
+        let preview = AppContext { shown: self.dialogs.preview().or(then).or(context.shown), ..context };
         let mut contents = Contents {
             context: &context,
             preview: &preview,

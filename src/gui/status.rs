@@ -148,12 +148,13 @@ fn version(ui: &mut Ui, context: &AppContext<'_>) {
         return;
     }
     let reasons = context.session.document().reasons_for_1_1();
-    let (text, help) = if reasons.is_empty() {
-        ("Version 1.0", "The file uses nothing that readers of PolyPhysicsXml 1.0 do not know".to_owned())
+    let written = context.session.document().written_version().unwrap_or_else(|| "1.0".to_owned());
+    let help = if reasons.is_empty() {
+        "The file uses nothing that readers of PolyPhysicsXml 1.0 do not know".to_owned()
     } else {
-        ("Version 1.1", format!("The file is PolyPhysicsXml 1.1 because of {}", reasons.join(", ")))
+        format!("The file is PolyPhysicsXml 1.1 because of {}", reasons.join(", "))
     };
-    ui.label(RichText::new(text).small().color(tones(ui).weak)).on_hover_text(help);
+    ui.label(RichText::new(format!("Version {written}")).small().color(tones(ui).weak)).on_hover_text(help);
 }
 
 /// Room for the name of a number, points.

@@ -184,6 +184,8 @@ pub struct Frame {
     pub crossings: Arc<Vec<Crossing>>,
     /// Events since the start.
     pub event_count: u64,
+    /// How many of the recorded edits were made before what is shown.
+    pub edits_before: usize,
     pub energy: Option<Energy>,
     pub momentum: Option<Momentum>,
     /// Where the energy residual changed most since the start.

@@ -77,6 +77,7 @@ fn looked_up(base: Frame, run: &Run, span: Option<PathSpan>, crossed: &[NodeKey]
         paths: span.map_or_else(Arc::default, |span| Arc::new(paths(run, span))),
         crossings: Arc::new(crossings(run, crossed)),
         event_count: run.cursor.event,
+        edits_before: edits_before(run),
         largest_jump: run.drift.largest(run.cursor.event),
         worst_overlap: run.overlaps.worst(run.cursor),
         counters: run.simulation.counters(),
@@ -104,6 +105,10 @@ fn settled(frame: Frame, run: &Run, tiles: bool) -> Frame {
         tiling: if tiles { Arc::new(simulation.tiling(MAX_TILES)) } else { Arc::default() },
         ..frame
     }
+}
+
+fn edits_before(run: &Run) -> usize {
+    run.recording.edits().iter().take_while(|edits| edits.at.is_not_after(run.cursor)).count()
 }
 
 fn recorded(run: &Run) -> Recorded {

@@ -130,7 +130,7 @@ impl Run {
     }
 
     /// Whether what is shown is the end of what is known, and the simulation there.
-    fn is_live(&self) -> bool {
+    pub(super) fn is_live(&self) -> bool {
         self.is_settled() && self.at == self.recording.end
     }
 

@@ -98,6 +98,9 @@ impl Task {
             Self::Until { dt, goal, waited } => {
                 if goal.advance(run, *dt, budget, waited) {
                     *self = Self::Idle;
+                } else if let Some(why) = goal.why_in_vain(run) {
+                    run.message = Some(format!("{}: {why}", goal.missing()).into());
+                    *self = Self::Idle;
                 } else if *waited >= MOST_EMPTY_STEPS {
                     let text = format!("{} within {MOST_EMPTY_STEPS} Δt", goal.missing());
                     run.message = Some(text.into());
@@ -127,13 +130,19 @@ impl Task {
 fn no_event(run: &mut Run, empty: u32) -> Option<String> {
     let is_certain = run.is_settled() && run.simulation.is_over();
     // A look at all bodies costs.
-    if (is_certain || empty.is_multiple_of(STEPS_BETWEEN_LOOKS)) && run.is_over() {
-        return Some("there is no event after this: nothing moves, and no force acts on what could".into());
-    }
-    if is_certain {
-        return Some("there is no event after this: what moves flies on and meets nothing any more".into());
+    if is_certain || (empty.is_multiple_of(STEPS_BETWEEN_LOOKS) && run.is_over()) {
+        return Some(format!("there is no event after this: {}", why_over(run)));
     }
     (empty >= MOST_STEPS_TO_EVENT).then(|| format!("no event within {MOST_STEPS_TO_EVENT} Δt after this"))
+}
+
+/// Why nothing will happen any more.
+fn why_over(run: &Run) -> &'static str {
+    if run.is_over() {
+        "nothing moves, and no force acts on what could"
+    } else {
+        "what moves flies on and meets nothing any more"
+    }
 }
 
 fn is_reached(run: &Run, of: Of) -> bool {
@@ -147,6 +156,12 @@ impl Goal {
             Self::Rest => "no rest",
             Self::Time(_) | Self::Events(_) | Self::Event { .. } => "no event",
         }
+    }
+
+    /// Why nothing will happen any more that it waits for, where that is known.
+    fn why_in_vain(self, run: &mut Run) -> Option<&'static str> {
+        let waits = matches!(self, Self::Rest | Self::Events(_));
+        (waits && run.is_live() && run.simulation.is_over()).then(|| why_over(run))
     }
 
     /// Goes on, and counts the Δt in `waited` that brought the goal no nearer; whether it is reached.

@@ -153,6 +153,13 @@ impl Document {
         self.meaning().features.used().map(|(name, ..)| name.to_owned()).collect()
     }
 
+    /// The version of the format as the file writes it; `None` where it writes none.
+    pub fn written_version(&self) -> Option<String> {
+        let Content::Tree(top) = self.of_same_structure().content() else { return None };
+        let root = locate::root(top, &self.source.text)?;
+        Some(root.value("Version")?.trim().to_owned())
+    }
+
     /// The viewpoints saved with the scene, in the order in which they were saved.
     pub fn viewpoints(&self) -> Vec<Viewpoint> {
         let Content::Tree(top) = self.of_same_structure().content() else { return Vec::new() };

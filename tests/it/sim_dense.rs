@@ -358,10 +358,7 @@ fn a_frozen_heap_falls_apart_when_a_wall_is_taken_away() {
 fn a_frozen_heap_wakes_when_gravity_changes_and_rests_again() {
     let (heap, scene, mut sim) = frozen(27);
     let mut force = scene.forces[0].clone();
-    let gravity = |acceleration: DVec3| polyscene::scene::ForceKind::GravityPlane {
-        position: DVec3::ZERO,
-        acceleration,
-    };
+    let gravity = |acceleration: DVec3| ForceKind::GravityPlane { position: DVec3::ZERO, acceleration };
     force.kind = gravity(DVec3::ZERO);
     sim.apply(&SimEdit::ChangeForce(Box::new(force.clone()))).expect("it changes");
     watched(&heap, &mut sim, &scene, 6.0);
@@ -430,4 +427,26 @@ fn a_heap_under_a_force_of_time_does_not_rest_for_ever() {
     let before = middle(&sim);
     advance(&mut sim, 6.0, Sampling::Every(0.5));
     assert!(middle(&sim) > before + RADIUS, "from {before} to {} m", middle(&sim));
+}
+
+/// A floor put through a falling heap is met with the restitution of what meets it, and not given back as if nothing was lost.
+#[test]
+fn a_floor_put_through_a_falling_heap_takes_energy() {
+    let heap = Heap::of(27, 0.25, 3);
+    let scene = heap.scene();
+    let floor = scene.bodies.iter().find(|body| body.id == BOX[0]).cloned().expect("a floor");
+    let mut sim = simulation(&scene);
+    advance(&mut sim, 1.0, Sampling::Every(0.25));
+    assert!(sim.stepped().is_some(), "they lie and are stepped");
+    sim.apply(&SimEdit::Remove(floor.key)).expect("it is there");
+    // Half a radius: those that lay on the floor are half through.
+    advance(&mut sim, 1.0 + (RADIUS / -GRAVITY).sqrt(), Sampling::Every(0.25));
+    let lowest = |sim: &Simulation| {
+        let bodies = sim.dynamic_bodies().filter_map(|body| Some((body, sim.state(body)?)));
+        bodies.min_by(|(_, a), (_, b)| a.position.y.total_cmp(&b.position.y)).expect("a ball")
+    };
+    let (body, before) = lowest(&sim);
+    sim.apply(&SimEdit::AddBody(Box::new(floor))).expect("it is gone");
+    let after = sim.state(body).expect("it is there");
+    assert!(before.velocity.y < -0.5 && after.velocity.y <= 0.3 * -before.velocity.y, "{before:?} {after:?}");
 }

@@ -124,3 +124,22 @@ fn only_plates_are_walls() {
     let input = ViewInput::new(&scene, axis(AxisView::Top), Viewport::new(800.0, 600.0, 1.0));
     assert!(!is_see_through(&input, NodeKey(77)), "there is no such body");
 }
+
+/// Balls jump out of a box and fall for ever: the box is seen into all the same.
+#[test]
+fn balls_that_have_left_change_nothing() {
+    let mut scene = empty();
+    scene.map.size = DVec3::splat(40.0);
+    for (key, z) in [(1, 12.0), (2, 8.0)] {
+        scene.bodies.push(plate(key, dvec3(10.0, 10.0, z), DVec3::ZERO, [2.0, 2.0]));
+    }
+    for k in 0..17_u32 {
+        scene.bodies.push(ball(10 + u64::from(k), dvec3(8.5 + 0.2 * f64::from(k), 9.0, 10.0), 0.1));
+    }
+    assert_eq!(glass(&scene, axis(AxisView::Front)), [1]);
+    for k in 0..3_u64 {
+        scene.bodies.push(ball(50 + k, dvec3(10.0, -1000.0, 14.0), 0.1));
+    }
+    assert_eq!(glass(&scene, axis(AxisView::Front)), [1]);
+    assert_eq!(glass(&scene, axis(AxisView::Back)), [2]);
+}

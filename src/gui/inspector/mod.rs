@@ -2,6 +2,7 @@
 
 mod between;
 mod bodies;
+mod contacts;
 mod forces;
 pub mod number;
 mod place;
@@ -47,6 +48,9 @@ impl Inspector {
                 between::show(ui, context, shown, keys);
                 if !bodies.is_empty() {
                     bodies::show(ui, context, shown, &bodies, &mut self.texts);
+                    if let [body] = bodies[..] {
+                        contacts::show(ui, context, body);
+                    }
                 }
                 if !forces.is_empty() {
                     forces::show(ui, context, shown, &forces, &mut self.texts);

@@ -34,7 +34,8 @@ pub fn simulation(ui: &mut Ui, context: &AppContext<'_>, shown: &Shown) {
     });
     let reasons = context.session.document().reasons_for_1_1();
     let text = if reasons.is_empty() {
-        "The file is Version 1.0: it uses nothing that older readers do not know.".to_owned()
+        let written = context.session.document().written_version().unwrap_or_else(|| "1.0".to_owned());
+        format!("The file is Version {written}, and uses nothing that readers of 1.0 do not know.")
     } else {
         format!("The file is Version 1.1 because of {}.", reasons.join(", "))
     };

@@ -201,7 +201,10 @@ pub(super) fn tile(map: Option<Map>, row: &EventRow) -> Option<[u32; 3]> {
 
 /// Who took part, by the names in the scene; what is no longer there by its label.
 pub fn bodies(context: &AppContext<'_>, row: &EventRow) -> String {
-    let name = |key| context.shown.and_then(|shown| shown.name(key));
+    let name = |key| {
+        let now = context.shown.and_then(|shown| shown.name(key));
+        now.or_else(|| context.session.former_name(key))
+    };
     let a = name(row.a_key).unwrap_or(&row.a_label);
     if row.b_key.is_none() && row.event.bodies > 1 {
         return format!("{a} and {} more", significant(f64::from(row.event.bodies - 1), 9));

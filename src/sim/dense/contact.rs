@@ -12,7 +12,7 @@
 use glam::DVec3;
 
 use super::stepped::{Contact, Moving, Near, Step, Stepped, velocity};
-use super::tolerance::{LAZY, PARTING, ROOM, SLOWEST_REBOUND};
+use super::tolerance::{DEEP, LAZY, PARTING, ROOM, SLOWEST_REBOUND};
 use crate::sim::body::BodyId;
 use crate::sim::geometry::restitution_at;
 use crate::sim::model::Model;
@@ -90,7 +90,8 @@ impl Finder<'_> {
         let rate = normal.dot(other.u - one.u);
         let driven = h * normal.dot(other.a - one.a);
         let strongest = one.drive.max(other.drive);
-        let landing = landing(gap, rate, h, (ROOM * radius, h * strongest));
+        let is_put = gap < -DEEP * radius;
+        let landing = if is_put { 0.0 } else { landing(gap, rate, h, (ROOM * radius, h * strongest)) };
         let rebounds = rate < -SLOWEST_REBOUND * strongest * h && gap + h * (rate + driven) < 0.0;
         contact.rate = rate;
         contact.bound =

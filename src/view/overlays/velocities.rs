@@ -2,7 +2,9 @@
 
 use glam::DVec3;
 
+use crate::record::BodyFrame;
 use crate::scene::Motion;
+use crate::sim::ContactState;
 use crate::view::DrawList;
 use crate::view::overlays::scaled_arrows::{self, OfBody, Quantity};
 use crate::view::stage::{Posed, Stage};
@@ -33,10 +35,22 @@ pub(super) fn scale_with_events(stage: &Stage<'_>) -> Option<f64> {
     scaled_arrows::scale_at(stage, &vectors)
 }
 
+/// Seconds in which a body crosses the map that is drawn without an arrow: what rounding leaves to bodies at rest.
+const CROSSES_IN: f64 = 1e12;
+
+/// The velocity that is drawn of a body now: none of what nobody would see move. What is stepped and lies still rises and falls
+/// by ½gh in every step, and its velocity says at which moment of the step it is.
+fn seen(stage: &Stage<'_>, now: &BodyFrame) -> DVec3 {
+    let step = stage.input.frame.map_or(0.0, |frame| frame.plan.group_step);
+    let trembling = if now.contact == ContactState::Stepped { now.acceleration.length() * step } else { 0.0 };
+    let slowest = stage.input.scene.map.size.max_element() / CROSSES_IN;
+    if now.velocity.length() > trembling.max(slowest) { now.velocity } else { DVec3::ZERO }
+}
+
 fn of_bodies<'a>(stage: &'a Stage<'_>) -> Vec<OfBody<'a>> {
     let velocity = |posed: &Posed<'_>| -> Option<DVec3> {
         match (posed.now, posed.body.motion) {
-            (Some(now), _) => Some(now.velocity),
+            (Some(now), _) => Some(seen(stage, now)),
             (None, Motion::Dynamic { velocity, .. }) => Some(velocity),
             (None, Motion::Static) => None,
         }
