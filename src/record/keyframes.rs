@@ -5,6 +5,10 @@ use crate::sim::{Simulation, Snapshot};
 
 /// About what one dynamic body takes in a snapshot, bytes: its columns, predictions and tiles.
 const BODY_SIZE: usize = 1024;
+/// About what an edit's own copy of the compiled scene takes for each body, bytes: of a static one its surface, place and tiles
+/// too.
+const DYNAMIC_SIZE: usize = 200;
+const STATIC_SIZE: usize = 500;
 /// Segments to simulate again at most between two keyframes, for a scene of few bodies.
 const SEGMENTS_APART: u64 = 500;
 /// And for each body of a larger one: a copy of it takes about as long as a segment, so that copies cost some per cent.
@@ -51,8 +55,11 @@ impl Keyframe {
         }
     }
 
-    pub(super) fn after_edit(self) -> Self {
-        Self { after_edit: true, ..self }
+    /// Of a simulation right after an edit, which has a scene of its own.
+    pub(super) fn after_edit(simulation: &Simulation, at: Moment, edits: usize) -> Self {
+        let key = Self::new(simulation, at, edits);
+        let scene = DYNAMIC_SIZE * simulation.dynamic_count() + STATIC_SIZE * simulation.static_count();
+        Self { after_edit: true, bytes: key.bytes + scene, ..key }
     }
 }
 

@@ -1,11 +1,14 @@
 //! The ways of bodies around the moment shown, from their recorded motion: curves as they are, not lines between pictures.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
+use super::ledger::EventRow;
 use super::moment::Moment;
 use super::run::Run;
 use super::ways::{BodyPath, ImpactBody, PathSpan};
-use crate::sim::{BodyRef, Piece};
+use crate::sim::{BodyRef, EventKind, Piece};
 
 /// Bodies whose ways are given; of more the first.
 const MOST_BODIES: usize = 300;
@@ -67,7 +70,9 @@ const MOST_AT_IMPACT: usize = 64;
 pub(super) fn at_impact(run: &Run) -> Vec<ImpactBody> {
     let now = run.cursor;
     let ledger = &run.recording.ledger;
-    let Some(row) = run.event_shown() else { return Vec::new() };
+    // That bodies are stepped, or lie still from now on, throws none.
+    let throws = |row: &&Arc<EventRow>| !matches!(row.event.kind, EventKind::Dense | EventKind::GroupRest);
+    let Some(row) = run.event_shown().filter(throws) else { return Vec::new() };
     // The rows of an impact group are one impact.
     let (first, last) = row.rows();
     let mut bodies: Vec<BodyRef> = (first..=last)

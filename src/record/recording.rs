@@ -138,8 +138,7 @@ impl Recording {
         self.edit_bytes += edits.bytes();
         self.edits.push(edits);
         self.ledger.rename(Arc::new(Names::of(simulation)));
-        let keyframe = Keyframe::new(simulation, self.end, self.edits.len());
-        self.keyframes.push(keyframe.after_edit());
+        self.keyframes.push(Keyframe::after_edit(simulation, self.end, self.edits.len()));
         self.thin_keyframes();
         self.stay_within_budget();
     }

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-/// A body of a running simulation. Dynamic and static bodies are numbered apart, both in UserID order.
+/// A body of a running simulation. Dynamic and static bodies are numbered apart, both in UserID order; those added later
+/// come after them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum BodyRef {
     Dynamic(u32),

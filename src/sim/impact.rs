@@ -7,8 +7,8 @@ use super::account::angular;
 use super::capture::free_if_struck;
 use super::contact::Contact;
 use super::dense::{
-    LARGE_ISLAND, Role, SMALLEST_CROWD, component, enter, least_crowd, least_elastic_crowd, may_be_crowd,
-    note_impact, note_too_few, note_work,
+    LARGE_ISLAND, Role, SMALLEST_CROWD, component, enter, is_stuck, least_crowd, least_elastic_crowd,
+    may_be_crowd, note_held, note_impact, note_met, note_too_few, note_work,
 };
 use super::event::{Event, EventKind};
 use super::exchange::{exchange, velocity_change};
@@ -42,6 +42,9 @@ pub(super) fn resolve(
     let mut freed = Vec::new();
     for struck in std::iter::once(&pair).chain(also.iter()) {
         free_struck(model, state, time, *struck, &mut freed);
+    }
+    if is_stuck(model, state, pair.dynamic(), time) {
+        return enter(model, state, &pair.dynamic().collect::<Vec<u32>>(), time);
     }
     if let Some(least) = least_crowd_of(model, state, pair, gap, time)
         && enter_crowd(model, state, pair, least, time)?
@@ -167,7 +170,12 @@ fn is_near_rest(model: &Model, pair: Pair, gap: &Gap) -> bool {
 fn bounce(model: &Model, state: &mut State, time: f64, pair: Pair, gap: &Gap) -> Result<(), Fault> {
     remember(model, state, [(pair, -gap.rate)]);
     let is_lossy = restitution_at(model, pair, -gap.rate) < 1.0;
-    pair.dynamic().for_each(|body| note_impact(model, state, body, time, is_lossy));
+    for (body, other) in pair.ends() {
+        note_impact(model, state, body, time, is_lossy);
+        if is_lossy {
+            note_met(model, state, body, other, time);
+        }
+    }
     let impulse = exchange(model, state, time, pair, gap);
     let start = |body: u32, impulse: f64| Start {
         body,
@@ -231,6 +239,9 @@ fn finish(model: &Model, state: &mut State, time: f64, mut group: Group, freed: 
     let settling = settle(model, &mut group);
     group.forget_rounding(&before);
     book(state, &group, &before);
+    if group.members.len() > 1 {
+        note_held(model, state, &group.bodies.ids, time);
+    }
     let moved = before.iter().zip(&group.bodies.v).map(|(old, new)| old != new);
     let unmoved = group.bodies.ids.iter().zip(moved).filter(|(body, moved)| !moved && freed.contains(body));
     state.captured.extend(unmoved.map(|(body, _)| *body));

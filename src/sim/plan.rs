@@ -37,8 +37,8 @@ pub(super) fn plan_of(model: &Model) -> Plan {
     let lasting_contact = lossy && model.method == Method::Exact;
     // Where nothing drives elastic bodies together, they part for good.
     let is_pressed = lossy || !model.forces.is_empty();
-    // A lone body may have to be stepped too: one that slides in a groove.
-    let least = if spin { 1 } else { 2 };
+    // A lone body may have to be stepped too: one that slides in a groove, or lies on a seam.
+    let least = if spin || lossy && !statics.is_empty() { 1 } else { 2 };
     if dynamic_bodies < least {
         left_out.push("stepped groups: no two moving bodies");
     } else if model.method != Method::Exact {

@@ -144,7 +144,7 @@ pub struct Counters {
     pub segments: u64,
     /// Force evaluations of the field integrator.
     pub force_evaluations: u64,
-    /// Times a Δt ran into its limit of collisions and left the rest as overlap; in `exact`, times the search for motions that
+    /// Times a body (`fixed`) or a local set (`thesis`) ran into the limit of collisions of a Δt, which left the rest as overlap; in `exact`, times the search for motions that
     /// all contacts allow ran into its limit of rounds, and the best found was taken.
     pub given_up: u64,
     /// Predicted events dropped because a body had changed since.

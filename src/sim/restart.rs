@@ -4,7 +4,9 @@ use std::collections::{BTreeMap, VecDeque};
 
 use glam::DVec3;
 
-use super::dense::{LARGE_ISLAND, Role, SMALLEST_CROWD, enter, least_crowd, note_impact, note_work};
+use super::dense::{
+    LARGE_ISLAND, Role, SMALLEST_CROWD, enter, is_stuck, least_crowd, note_held, note_impact, note_work,
+};
 use super::fault::{Fault, fault};
 use super::gripping::{Gripped, begin_gripping, can_grip};
 use super::island::{Island, begin_island, connected, drop_unpressed, islands};
@@ -94,7 +96,9 @@ fn begin_islands(model: &Model, state: &mut State, time: f64, starts: &[Start]) 
     let mut waiting: VecDeque<Vec<u32>> = islands(state, &bodies).into();
     while let Some(ids) = waiting.pop_front() {
         let mut island = island(state, ids);
-        match regime(state, island.ids[0]) {
+        let regime = regime(state, island.ids[0]);
+        note_regime(model, state, &island.ids, regime, time);
+        match regime {
             Regime::Free | Regime::Captured => {
                 debug_assert_eq!(island.ids.len(), 1, "bodies without contact move alone");
                 let start = Start { body: island.ids[0], x: island.x[0], v: island.v[0] };
@@ -132,6 +136,13 @@ fn begin_islands(model: &Model, state: &mut State, time: f64, starts: &[Start]) 
     Ok(bodies)
 }
 
+/// Notes that an island goes on in contact.
+fn note_regime(model: &Model, state: &mut State, ids: &[u32], regime: Regime, time: f64) {
+    if regime == Regime::Held {
+        note_held(model, state, ids, time);
+    }
+}
+
 /// Notes what it costs to go on with an island, if its motion is integrated.
 fn note_integrated(model: &Model, state: &mut State, ids: &[u32], time: f64) {
     if state.segments[ids[0] as usize].step > 0.0 {
@@ -158,6 +169,7 @@ fn is_for_steps(model: &Model, state: &State, island: &Island, time: f64) -> boo
     let ids = &island.ids;
     state.dense.is_some()
         && (ids.len() >= LARGE_ISLAND
+            || is_stuck(model, state, ids.iter().copied(), time)
             || ids
                 .iter()
                 .filter_map(|body| least_crowd(model, state, *body, time))

@@ -182,6 +182,8 @@ mod sim_rubbing_rooms;
 mod sim_scale;
 // Seams and edges under bodies whose way is integrated: no ghost impacts, no kink inside a step.
 mod sim_seams;
+// One ball where rounding decides: seams, pits, corners.
+mod sim_stuck;
 // The thesis's own scene against the reference, and its invariants over a minute.
 mod sim_thesis;
 // Contact scenes from seeds: seams, corners, squeezes, slots, pits, heaps, at any size.

@@ -5,9 +5,10 @@ use super::clock::step_at;
 use super::data::{Activity, Decaying};
 use super::tolerance::{
     CROWDED, CROWDED_IN_FIELDS, HALF_LIFE, HALF_LIFE_OF_WORK, LARGE_ISLAND, LEAST_CROWD, LEAST_STRUCK,
-    LEAST_STRUCK_IN_FIELDS, MOST_AT_ONE_INSTANT, SMALLEST_CROWD, SMALLEST_ELASTIC_CROWD, STRUCK_OFTEN,
-    TOO_MUCH_WORK, WORK_OF_CUBE,
+    LEAST_STRUCK_IN_FIELDS, MOST_AT_ONE_INSTANT, SHARE_OF_STEP, SMALLEST_CROWD, SMALLEST_ELASTIC_CROWD,
+    STRUCK_OFTEN, STUCK, TOO_MUCH_WORK, WORK_OF_CUBE,
 };
+use crate::sim::body::BodyId;
 use crate::sim::model::Model;
 use crate::sim::state::State;
 
@@ -36,6 +37,49 @@ pub(in crate::sim) fn note_work(model: &Model, state: &mut State, bodies: &[u32]
         let work = &mut dense.activity[*body as usize].work;
         work.add(WORK_OF_CUBE * size * size * size, time, HALF_LIFE_OF_WORK * step);
     }
+}
+
+/// Notes a lossy impact of a body that touches nothing else: in a pit it meets one that does not move after the other. One that
+/// moves may squeeze it against something, and it rebounds after ever so many impacts.
+pub(in crate::sim) fn note_met(model: &Model, state: &mut State, body: u32, other: BodyId, time: f64) {
+    let Some(dense) = &mut state.dense else { return };
+    if other.is_static() && dense.activity[body as usize].met.replace(other) != Some(other) {
+        note_held(model, state, &[body], time);
+    }
+}
+
+/// Notes that bodies go on in contact, or met several at once.
+pub(in crate::sim) fn note_held(model: &Model, state: &mut State, bodies: &[u32], time: f64) {
+    for body in bodies {
+        let was_integrated = state.segments[*body as usize].step > 0.0;
+        // A stiff slip takes hundreds of steps of the integrator until it is gone, and gets on.
+        if was_integrated && model.plan.spin {
+            continue;
+        }
+        let half_life = HALF_LIFE * step_of(model, state, *body, time);
+        let Some(dense) = &mut state.dense else { return };
+        let weight = if was_integrated { SHARE_OF_STEP } else { 1.0 };
+        dense.activity[*body as usize].held.add(weight, time, half_life);
+    }
+}
+
+/// Whether events do not get on with one of some bodies: it goes on anew all the time.
+pub(in crate::sim) fn is_stuck(
+    model: &Model,
+    state: &State,
+    mut bodies: impl Iterator<Item = u32>,
+    time: f64,
+) -> bool {
+    let Some(dense) = &state.dense else { return false };
+    bodies.any(|body| {
+        let held = &dense.activity[body as usize].held;
+        held.sum >= STUCK && held.at(time, HALF_LIFE * step_of(model, state, body, time)) >= STUCK
+    })
+}
+
+/// Forgets that it was so; whether it was.
+pub(super) fn take_stuck(activity: &mut Activity) -> bool {
+    std::mem::take(&mut activity.held).sum >= STUCK
 }
 
 /// Of how many moving bodies a component must be to be stepped, as this one is struck so often or its motion costs so

@@ -6,6 +6,7 @@ use super::converge::Solution;
 use super::rub::Rubbing;
 use super::stepped::{Contact, Near, Stepped};
 use super::sweep::System;
+use crate::sim::body::BodyId;
 use crate::sim::pair::Pair;
 
 /// What a dynamic body is to stepped groups.
@@ -28,6 +29,9 @@ pub(in crate::sim) struct Activity {
     pub lossy: Decaying,
     /// What it cost to resolve and integrate it with others, in steps of a group.
     pub work: Decaying,
+    /// How often it went on in contact, or met several at once or in turn; and whom it met last.
+    pub held: Decaying,
+    pub met: Option<BodyId>,
     /// Time of the last lossy impact, s, and how many there were at that time.
     pub instant: f64,
     pub at_once: u32,
@@ -61,8 +65,10 @@ pub(in crate::sim) struct Member {
     pub has_company: bool,
     /// Whether its segment is one of a group, which is a step of the leapfrog.
     pub is_stepped: bool,
-    /// Steps without a force.
+    /// Steps without a push by another that moves, or by anything while it is to stay.
     pub idle: u32,
+    /// For how many steps it is to stay while it lies on something, for events did not get on with it.
+    pub stays: u32,
     /// Where it was when it last moved by more than what counts as still, m, and when, s.
     pub anchor: DVec3,
     pub still_since: f64,
@@ -83,7 +89,7 @@ pub(in crate::sim) struct Listed {
 pub(super) struct Component {
     /// Places of the members.
     pub slots: Vec<u32>,
-    /// Its listed pairs, so that those which follow each other share no body.
+    /// Its listed pairs; of large components so that those which follow each other share no body.
     pub near: Vec<Near>,
     /// Places in the list of its pairs with bodies at rest.
     pub with_frozen: Vec<u32>,

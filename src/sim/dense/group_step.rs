@@ -402,14 +402,16 @@ fn note_forces(dense: &mut Dense, component: &mut Component, h: f64) {
     for slot in slots.iter() {
         let member = &mut dense.members[*slot as usize];
         member.idle = member.idle.saturating_add(1);
+        member.stays = member.stays.saturating_sub(1);
     }
     near.iter_mut().for_each(|near| near.force = 0.0);
     for contact in work.contacts.iter().filter(|contact| contact.impulse > 0.0) {
         let near = &mut near[contact.near as usize];
         near.force = contact.impulse / h;
-        if near.pair.second().is_some() {
-            for slot in [contact.a, contact.b].into_iter().filter_map(|body| slots.get(body as usize)) {
-                dense.members[*slot as usize].idle = 0;
+        for slot in [contact.a, contact.b].into_iter().filter_map(|body| slots.get(body as usize)) {
+            let member = &mut dense.members[*slot as usize];
+            if near.pair.second().is_some() || member.stays > 0 {
+                member.idle = 0;
             }
         }
     }

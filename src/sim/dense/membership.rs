@@ -5,8 +5,9 @@ use std::collections::BTreeSet;
 use glam::DVec3;
 use rustc_hash::FxHashSet;
 
+use super::activity::take_stuck;
 use super::data::{Dense, Member, Role};
-use super::tolerance::SAME_COMPONENT;
+use super::tolerance::{SAME_COMPONENT, STEPS_OF_STUCK};
 use super::view::forget_forces;
 use crate::sim::body::BodyId;
 use crate::sim::model::Model;
@@ -83,6 +84,7 @@ pub(super) fn take_in(state: &mut State, dense: &mut Dense, bodies: &[u32], time
             has_company: false,
             is_stepped: false,
             idle: 0,
+            stays: if take_stuck(&mut dense.activity[*body as usize]) { STEPS_OF_STUCK } else { 0 },
             anchor: x,
             still_since: time,
             group,
@@ -101,7 +103,7 @@ pub(super) fn frozen_with(dense: &Dense, numbers: &BTreeSet<u32>) -> Vec<u32> {
     (0..).zip(&dense.roles).filter(|(_, role)| is_its(role)).map(|(body, _)| body).collect()
 }
 
-/// Lets members go, which have these places among them.
+/// Lets members go.
 pub(super) fn release(dense: &mut Dense, bodies: &[u32], role: Role) {
     if bodies.is_empty() {
         return;

@@ -36,7 +36,8 @@ mod tolerance;
 mod view;
 
 pub(super) use activity::{
-    least_crowd, least_elastic_crowd, may_be_crowd, note_impact, note_too_few, note_work,
+    is_stuck, least_crowd, least_elastic_crowd, may_be_crowd, note_held, note_impact, note_met, note_too_few,
+    note_work,
 };
 pub(super) use clock::{find_step, set_step, step_at};
 pub(super) use data::{Dense, Role};

@@ -165,6 +165,18 @@ pub(super) const CROWDED_IN_FIELDS: f64 = 512.0;
 pub(super) const LEAST_STRUCK: f64 = 4.0;
 pub(super) const LEAST_STRUCK_IN_FIELDS: f64 = LEAST_STRUCK * CROWDED_IN_FIELDS / CROWDED;
 
+/// Motions that a body begins in contact, and impacts of it with several at once or in turn, each forgotten by half in
+/// [`HALF_LIFE`] steps, from which it is stepped even alone: some 45 a step. A body on a seam, in a pit or a groove may lift
+/// off, meet and settle without end while rounding decides which. Fewer, and it is stepped where it gets through; more, and
+/// it stalls for longer.
+pub(super) const STUCK: f64 = 256.0;
+
+/// What the end of an integrator's step counts for there: on round surfaces there are some in each step of a group.
+pub(super) const SHARE_OF_STEP: f64 = 0.5;
+
+/// Such a body stays for so many steps while it lies on something: long enough to come to rest. Then events try again.
+pub(super) const STEPS_OF_STUCK: u32 = 512;
+
 /// Lossy impacts of one body at one instant from which its component is stepped, whatever the others say: no endless
 /// series of impacts without time can outlive it.
 pub(super) const MOST_AT_ONE_INSTANT: u32 = 32;

@@ -1,4 +1,4 @@
-//! Which static bodies lie in which tile: exact, made once when the scene is compiled.
+//! Which static bodies lie in which tile: exact, made when the scene is compiled and after edits of static bodies.
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
