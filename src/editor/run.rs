@@ -1,5 +1,6 @@
 //! The simulation of the open document: edits reach its runner in batches, its frames are taken, commands drive it.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -40,7 +41,7 @@ pub(super) struct Run {
     /// What ran before each edit.
     scenes: Scenes,
     /// What it ran before its start was edited, while that can be brought back.
-    replaced: Option<Running>,
+    replaced: Option<(Running, Scenes)>,
     /// What edits touched that have not reached the runner yet.
     pub pending: Touched,
     /// The document state that was seen last while edits are pending, and since when.
@@ -64,12 +65,16 @@ pub struct Ran {
     scene: Arc<Scene>,
     /// Whether edits came after it.
     is_past: bool,
+    /// What is drawn as the document has it, for the run has not heard of it yet.
+    pending: BTreeSet<NodeKey>,
 }
 
 impl Ran {
     /// Whether both are of the same scene.
     pub fn is(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.scene, &other.scene) && self.is_past == other.is_past
+        Arc::ptr_eq(&self.scene, &other.scene)
+            && self.is_past == other.is_past
+            && self.pending == other.pending
     }
 }
 
@@ -77,13 +82,17 @@ impl Running {
     /// What of a document runs otherwise now.
     fn wait_for(&mut self, document: &Document) {
         let Some(scene) = document.scene() else { return };
-        let keys = |scene: &Scene| {
-            let bodies = scene.bodies.iter().map(|body| body.key);
-            bodies.chain(scene.forces.iter().map(|force| force.key)).collect::<Vec<_>>()
-        };
-        let keys = [keys(&self.scene), keys(scene)].concat().into_iter().collect();
-        self.waiting = waits(&self.scene, scene, &Touched { keys, ..Touched::default() });
+        self.waiting = waits(&self.scene, scene, &all_of(&self.scene, scene));
     }
+}
+
+/// As though everything in two scenes was touched.
+fn all_of(one: &Scene, other: &Scene) -> Touched {
+    let keys = |scene: &Scene| {
+        let bodies = scene.bodies.iter().map(|body| body.key);
+        bodies.chain(scene.forces.iter().map(|force| force.key)).collect::<Vec<_>>()
+    };
+    Touched { keys: [keys(one), keys(other)].concat().into_iter().collect(), ..Touched::default() }
 }
 
 impl Run {
@@ -211,9 +220,13 @@ impl Run {
                 }
             }
             (Some(running), Some(scene)) => {
-                let change = live_change((&running.scene, &running.waiting), &scene, &touched);
+                // Before other edits another scene ran: from here on it is the document's in all.
+                let then = self.scenes.then(&self.frame).cloned();
+                let touched = then.as_ref().map_or(touched, |then| all_of(then, &scene));
+                let base = then.unwrap_or_else(|| running.scene.clone());
+                let change = live_change((&base, &running.waiting), &scene, &touched);
                 if !change.edits.is_empty() {
-                    self.scenes.edit(&running.scene, &change.edits, &self.frame);
+                    self.scenes.edit(&base, &running.scene, &change.edits, &self.frame);
                 }
                 let speed_changed = running.scene.time_speed != scene.time_speed;
                 running.edited |= !change.edits.is_empty();
@@ -240,7 +253,8 @@ impl Run {
     fn load_edited(&mut self, document: &Document, scene: Arc<Scene>) {
         let keeps_run = self.frame.recorded.to > 0.0;
         if keeps_run {
-            self.replaced = self.running.take();
+            let scenes = std::mem::take(&mut self.scenes);
+            self.replaced = self.running.take().map(|running| (running, scenes));
         }
         if self.replaced.is_none() {
             return self.load(document, scene);
@@ -260,7 +274,7 @@ impl Run {
 
     /// Takes the last edit in the past out of the run, or that of its start.
     pub fn bring_back(&mut self, document: &Document) {
-        let Some(mut before) = self.replaced.take() else {
+        let Some((mut before, scenes)) = self.replaced.take() else {
             self.go_back(RunCommand::BringBack);
             if let (Some(running), Some(scene)) = (&mut self.running, self.scenes.bring_back()) {
                 running.scene = scene;
@@ -269,7 +283,7 @@ impl Run {
             return;
         };
         before.wait_for(document);
-        self.running = Some(before);
+        (self.running, self.scenes) = (Some(before), scenes);
         let command = self.send(RunCommand::BringBack);
         self.begin_anew(command, self.frame_at_start());
     }
@@ -279,12 +293,13 @@ impl Run {
         let running = self.running.as_ref().filter(|_| !self.playback.is_at_start())?;
         let past = self.scenes.then(&self.frame);
         let scene = past.unwrap_or(&running.scene);
-        let then = Ran { scene: scene.clone(), is_past: past.is_some() };
+        let pending = self.pending.keys.clone();
+        let then = Ran { scene: scene.clone(), is_past: past.is_some(), pending };
         (!Arc::ptr_eq(scene, wanted)).then_some(then)
     }
 
     pub fn drawn(&self, wanted: &Arc<Scene>, then: &Ran) -> Arc<Scene> {
-        drawn(wanted, &then.scene, then.is_past, &self.pending)
+        drawn(wanted, &then.scene, then.is_past, &then.pending)
     }
 
     /// What a body was called that an edit has removed from the run.

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use crate::record::Frame;
-use crate::scene::{Body, NodeKey, Scene, Touched};
+use crate::scene::{Body, NodeKey, Scene};
 use crate::sim::SimEdit;
 
 /// The scenes that ran before the recorded edits.
@@ -12,35 +12,46 @@ use crate::sim::SimEdit;
 pub(super) struct Scenes {
     /// Of each recorded edit, in order.
     before: Vec<Arc<Scene>>,
-    /// These and the one that ran, before the last edit.
-    replaced: Option<(Vec<Arc<Scene>>, Arc<Scene>)>,
+    /// These and the one that ran, before the last edit; and what stood here before that edit.
+    replaced: Option<Replaced>,
+    former_replaced: Option<Replaced>,
     /// What bodies were called that edits removed from the run.
     former: BTreeMap<NodeKey, String>,
 }
 
+type Replaced = (Vec<Arc<Scene>>, Arc<Scene>);
+
 impl Scenes {
-    /// Notes an edit of the scene that runs, at the moment that a frame shows.
-    pub fn edit(&mut self, running: &Arc<Scene>, edits: &[SimEdit], frame: &Frame) {
-        self.replaced = Some((self.before.clone(), running.clone()));
-        // What was recorded for later is another future; what is not recorded yet is made first.
+    /// Notes an edit of a scene that ran at the moment that a frame shows; `running` is the one at the end.
+    pub fn edit(&mut self, then: &Arc<Scene>, running: &Arc<Scene>, edits: &[SimEdit], frame: &Frame) {
+        self.former_replaced = self.replaced.replace((self.before.clone(), running.clone()));
+        // What was recorded for later is another future; what is not recorded yet is made with this one.
         if frame.recorded.edits.len() >= self.before.len() {
-            self.before.truncate(frame.edits_before);
+            self.before.resize(frame.edits_before, then.clone());
+            self.before.push(then.clone());
         }
-        self.before.push(running.clone());
         let gone = edits.iter().filter_map(|edit| match edit {
-            SimEdit::Remove(key) => running.bodies.iter().find(|body| body.key == *key),
+            SimEdit::Remove(key) => then.bodies.iter().find(|body| body.key == *key),
             _ => None,
         });
         self.former.extend(gone.map(|body| (body.key, body.display_name().to_owned())));
     }
 
-    /// Forgets the edits that the runner refused: a frame tells what it recorded.
+    /// Forgets an edit that the runner refused, as a frame tells, which recorded none.
     pub fn refused(&mut self, frame: &Frame) {
-        self.before.truncate(frame.recorded.edits.len());
+        if frame.recorded.edits.len() < self.before.len()
+            && let Some((before, _)) = std::mem::replace(&mut self.replaced, self.former_replaced.take())
+        {
+            self.before = before;
+        }
     }
 
     /// The scene that ran at what a frame shows; `None` for the one that runs at the end.
     pub fn then(&self, frame: &Frame) -> Option<&Arc<Scene>> {
+        let is_unrecorded = frame.recorded.edits.len() < self.before.len();
+        if is_unrecorded && frame.edits_before + 1 == self.before.len() {
+            return None;
+        }
         self.before.get(frame.edits_before)
     }
 
@@ -59,16 +70,21 @@ impl Scenes {
 /// What is drawn at a moment when another scene ran than the document's: bodies as they were, but what edits touched that have
 /// not reached the run as the document has it. In the present, `then` is what runs while changes wait for a reset: bodies that
 /// wait to be added are drawn where they will start.
-pub(super) fn drawn(wanted: &Arc<Scene>, then: &Arc<Scene>, is_past: bool, pending: &Touched) -> Arc<Scene> {
+pub(super) fn drawn(
+    wanted: &Arc<Scene>,
+    then: &Arc<Scene>,
+    is_past: bool,
+    pending: &BTreeSet<NodeKey>,
+) -> Arc<Scene> {
     let ran: BTreeMap<NodeKey, &Body> = then.bodies.iter().map(|body| (body.key, body)).collect();
     let of_wanted = |body: &Body| match ran.get(&body.key) {
-        _ if pending.keys.contains(&body.key) => Some(body.clone()),
+        _ if pending.contains(&body.key) => Some(body.clone()),
         Some(ran) if is_past || body.is_dynamic() => Some(as_it_ran(ran, body)),
         None if is_past => None,
         Some(_) | None => Some(body.clone()),
     };
     let known: BTreeSet<NodeKey> = wanted.bodies.iter().map(|body| body.key).collect();
-    let is_gone = |body: &&Body| !pending.keys.contains(&body.key) && !known.contains(&body.key);
+    let is_gone = |body: &&Body| !pending.contains(&body.key) && !known.contains(&body.key);
     let gone = then.bodies.iter().filter(is_gone).cloned();
     let bodies: Vec<Body> = wanted.bodies.iter().filter_map(of_wanted).chain(gone).collect();
     let forces = if is_past { &then.forces } else { &wanted.forces };

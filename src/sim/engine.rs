@@ -121,8 +121,17 @@ pub(super) fn begin_all(model: &Model, state: &mut State) -> Result<(), Fault> {
         .map(|body| (body, state.segments[body as usize]))
         .map(|(body, segment)| Start { body, x: segment.x, v: segment.v })
         .collect();
+    set_beginning(state, true);
     restart(model, state, state.now, &starts)?;
-    dense::wake_all(model, state, state.now)
+    dense::wake_all(model, state, state.now)?;
+    set_beginning(state, false);
+    Ok(())
+}
+
+fn set_beginning(state: &mut State, is_beginning: bool) {
+    if let Some(dense) = &mut state.dense {
+        dense.is_beginning = is_beginning;
+    }
 }
 
 /// Finds the step of groups where nothing told it before something happened.

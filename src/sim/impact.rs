@@ -43,6 +43,21 @@ pub(super) fn resolve(
     for struck in std::iter::once(&pair).chain(also.iter()) {
         free_struck(model, state, time, *struck, &mut freed);
     }
+    resolve_freed(model, state, time, pair, gap, also)?;
+    // Who was not moved after all, held by others or struck elsewhere, stays captured.
+    let unmoved = freed.into_iter().filter(|(body, stamp)| state.stamps[*body as usize] == *stamp);
+    state.captured.extend(unmoved.map(|(body, _)| body));
+    Ok(())
+}
+
+fn resolve_freed(
+    model: &Model,
+    state: &mut State,
+    time: f64,
+    pair: Pair,
+    gap: &Gap,
+    also: &mut Vec<Pair>,
+) -> Result<(), Fault> {
     if is_stuck(model, state, pair.dynamic(), time) {
         return enter(model, state, &pair.dynamic().collect::<Vec<u32>>(), time);
     }
@@ -76,7 +91,7 @@ pub(super) fn resolve(
         return enter(model, state, &group.bodies.ids, time);
     }
     list(model, state, time, &group, kind);
-    finish(model, state, time, group, &freed)
+    finish(model, state, time, group)
 }
 
 /// Of how many moving bodies the component of an impact must be to be stepped; `None` if it is not. Of an elastic pair
@@ -142,8 +157,9 @@ fn collapse(model: &Model, state: &mut State, group: &mut Group) -> bool {
     report_collapse(state, collapsed)
 }
 
-/// Frees captured bodies that an impact would throw out, if no other held them; adds them to a list.
-fn free_struck(model: &Model, state: &mut State, time: f64, pair: Pair, freed: &mut Vec<u32>) {
+/// Frees captured bodies that an impact would throw out, if no other held them; adds them to a list, with the number of the
+/// segment on which they stay.
+fn free_struck(model: &Model, state: &mut State, time: f64, pair: Pair, freed: &mut Vec<(u32, u32)>) {
     let Some(other) = pair.second() else { return };
     if !pair.dynamic().any(|body| state.captured.contains(&body)) {
         return;
@@ -153,7 +169,7 @@ fn free_struck(model: &Model, state: &mut State, time: f64, pair: Pair, freed: &
     let Blow { impulse, .. } = blow(reduced, restitution_at(model, pair, -gap.rate), -gap.rate);
     for (body, impulse) in [(pair.first(), -impulse), (other, impulse)] {
         if free_if_struck(model, state, body, impulse / model.mass(body) * gap.normal) {
-            freed.push(body);
+            freed.push((body, state.stamps[body as usize]));
         }
     }
 }
@@ -231,20 +247,16 @@ fn list(model: &Model, state: &mut State, time: f64, group: &Group, kind: EventK
     }
 }
 
-/// Books what a group lost and was given, settles what has come to rest, and lets its bodies go on. Those that were freed for
-/// it and not moved by it stay captured.
-fn finish(model: &Model, state: &mut State, time: f64, mut group: Group, freed: &[u32]) -> Result<(), Fault> {
+/// Books what a group lost and was given, settles what has come to rest, and lets its bodies go on.
+fn finish(model: &Model, state: &mut State, time: f64, mut group: Group) -> Result<(), Fault> {
     let before: Vec<DVec3> = group.bodies.ids.iter().map(|body| state.velocity(*body, time)).collect();
     group.forget_rounding(&before);
     let settling = settle(model, &mut group);
     group.forget_rounding(&before);
     book(state, &group, &before);
-    if group.members.len() > 1 {
+    if group.members.len() > 1 && group.members.iter().any(|member| member.restitution < 1.0) {
         note_held(model, state, &group.bodies.ids, time);
     }
-    let moved = before.iter().zip(&group.bodies.v).map(|(old, new)| old != new);
-    let unmoved = group.bodies.ids.iter().zip(moved).filter(|(body, moved)| !moved && freed.contains(body));
-    state.captured.extend(unmoved.map(|(body, _)| *body));
     let mut changed = changed(&group, &before, &settling);
     if model.plan.spin {
         book_torques(state, &group);

@@ -27,7 +27,8 @@ pub(super) fn show(ui: &mut Ui, context: &AppContext<'_>, key: NodeKey) {
     section(ui, "Contacts");
     Grid::new("body contacts").num_columns(3).spacing([6.0, 3.0]).show(ui, |ui| {
         for (other, force) in pressed.iter().take(MOST) {
-            let name = context.shown.and_then(|shown| shown.name(*other)).unwrap_or("a body");
+            let name = context.shown.and_then(|shown| shown.name(*other));
+            let name = name.or_else(|| context.session.former_name(*other)).unwrap_or("a body");
             let help = "Normal force between the two, in the last step";
             row(ui, [name, ""], significant(force.length(), DIGITS), "N", help);
         }

@@ -50,6 +50,9 @@ pub(in crate::sim) fn note_met(model: &Model, state: &mut State, body: u32, othe
 
 /// Notes that bodies go on in contact, or met several at once.
 pub(in crate::sim) fn note_held(model: &Model, state: &mut State, bodies: &[u32], time: f64) {
+    if state.dense.as_ref().is_none_or(|dense| dense.is_beginning) {
+        return;
+    }
     for body in bodies {
         let was_integrated = state.segments[*body as usize].step > 0.0;
         // A stiff slip takes hundreds of steps of the integrator until it is gone, and gets on.

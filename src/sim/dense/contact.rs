@@ -90,12 +90,16 @@ impl Finder<'_> {
         let rate = normal.dot(other.u - one.u);
         let driven = h * normal.dot(other.a - one.a);
         let strongest = one.drive.max(other.drive);
-        let is_put = gap < -DEEP * radius;
-        let landing = if is_put { 0.0 } else { landing(gap, rate, h, (ROOM * radius, h * strongest)) };
+        let landing = landing(gap, rate, h, (ROOM * radius, h * strongest));
         let rebounds = rate < -SLOWEST_REBOUND * strongest * h && gap + h * (rate + driven) < 0.0;
         contact.rate = rate;
-        contact.bound =
-            if rebounds { landing.max(-restitution_at(self.model, pair, -rate) * rate) } else { landing };
+        let own = || -restitution_at(self.model, pair, -rate) * rate;
+        contact.bound = match rebounds {
+            false => landing,
+            // Bodies that were put into each other part as those that meet.
+            true if gap < -DEEP * radius => own(),
+            true => landing.max(own()),
+        };
     }
 
     /// Whether a contact is too far off to count until it is seen to meet.

@@ -162,6 +162,8 @@ pub(in crate::sim) struct Dense {
     /// Number of the last component that came to rest.
     pub last_frozen: u32,
     pub frozen: usize,
+    /// Whether all bodies begin anew, at the start or after an edit: that tells nothing of how they get on.
+    pub is_beginning: bool,
 }
 
 impl Dense {
@@ -182,6 +184,7 @@ impl Dense {
             next: f64::INFINITY,
             last_frozen: 0,
             frozen: 0,
+            is_beginning: false,
         }
     }
 

@@ -48,8 +48,8 @@ pub(super) const MOST_ATTEMPTS: u32 = 8;
 /// Overlap from which bodies need not part, in radii: room to give back what the curvature of a way opened.
 pub(super) const ROOM: f64 = 4e-4;
 
-/// Overlap that no step makes, in radii: bodies were put there, and part as those that meet, by their restitution. Where it
-/// is less, they part as fast as they met, and so get out.
+/// Overlap that no step makes, in radii: bodies were put there, and those that come fast part as those that meet, by their
+/// restitution. Where it is less, they part as fast as they met, and so get out.
 pub(super) const DEEP: f64 = 0.01;
 
 /// Within that room they part at this share of the speed at which they met. At 1 they tremble for ever, at 0 they stay
