@@ -208,23 +208,29 @@ fn what_was_recorded_before_an_edit_of_the_start_is_brought_back() {
     assert!(live.recorded.edits.len() == 1 && !live.recorded.can_bring_back, "until a run is edited");
 }
 
-/// Symptom: before an edit, the past was drawn with the scene as edited since: balls stood on a floor that was not drawn, and
-/// events named it by its number. Expected: what was there then. Cause: only moving bodies were drawn from the run.
-#[test]
-fn the_past_is_drawn_as_it_was() {
+/// A session whose runner simulates at once, with [`SCENE`] in a folder that lasts as long.
+fn opened() -> (tempfile::TempDir, Session) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("scene.xml");
     std::fs::write(&path, SCENE).unwrap();
     let mut session = Session::new(Box::new(InlineRunner::new()));
-    let now = std::time::Instant::now();
-    let act = |session: &mut Session, action: Action| {
-        session.perform(action);
-        session.poll(now);
-    };
+    act(&mut session, Action::OpenPath(path));
+    (folder, session)
+}
+
+fn act(session: &mut Session, action: Action) {
+    session.perform(action);
+    session.poll(std::time::Instant::now());
+}
+
+/// Symptom: before an edit, the past was drawn with the scene as edited since: balls stood on a floor that was not drawn, and
+/// events named it by its number. Expected: what was there then. Cause: only moving bodies were drawn from the run.
+#[test]
+fn the_past_is_drawn_as_it_was() {
+    let (_folder, mut session) = opened();
     let run = |command| Action::Command(command);
     let travel = |command| run(SessionCommand::Travel(command));
     let edit = |edit| Action::Edit { edit, gesture: None };
-    act(&mut session, Action::OpenPath(path));
     let [floor, ball] = [0, 1].map(|nth| session.scene().unwrap().bodies[nth].key);
     // Keys and radii of what the views show.
     let drawn = |session: &Session| {
@@ -271,19 +277,10 @@ fn the_past_is_drawn_as_it_was() {
 /// on the run is the scene's. Cause: only what was touched now was told to the run.
 #[test]
 fn an_edit_before_another_brings_the_run_in_line_with_the_scene() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("scene.xml");
-    std::fs::write(&path, SCENE).unwrap();
-    let mut session = Session::new(Box::new(InlineRunner::new()));
-    let now = std::time::Instant::now();
-    let act = |session: &mut Session, action: Action| {
-        session.perform(action);
-        session.poll(now);
-    };
+    let (_folder, mut session) = opened();
     let times = |session: &mut Session, count: usize, command: SessionCommand| {
         (0..count).for_each(|_| act(session, Action::Command(command)));
     };
-    act(&mut session, Action::OpenPath(path));
     let [floor, ball] = [0, 1].map(|nth| session.scene().unwrap().bodies[nth].key);
     times(&mut session, 20, SessionCommand::StepForward);
     act(&mut session, Action::Edit { edit: Edit::Delete { keys: vec![floor] }, gesture: None });

@@ -125,7 +125,7 @@ fn a_hard_impact_frees_a_captured_ball() {
 }
 
 /// Two balls that strike a captured one from both sides at once would each throw it out alone; together they leave it where
-/// it is, and it stays captured. It once hovered there as if it flew, and nothing drove it.
+/// it is, and it stays captured.
 #[test]
 fn what_is_struck_from_both_sides_at_once_stays_captured() {
     let mut sim = simulation(&held(1e-3));
